@@ -1,0 +1,50 @@
+//! Exact answers for peridynamics verification, written without sight of the solver.
+//!
+//! Plane waves, moduli, time steps and reflections of the linearised bond-based model
+//! ρü = ∫ c(ξ) (ξ⊗ξ/|ξ|³)(u' − u) dV', c = c₀W(|ξ|/δ) (Silling, J. Mech. Phys. Solids 48 (2000) 175), of its
+//! meshfree lattice (Silling and Askari, Comput. Struct. 83 (2005) 1526) and of second-order central
+//! differences. Every answer comes straight from its defining sum or integral in double-double arithmetic
+//! (31 digits), rounded to a double at the end; where that is not so, the function says how good it is.
+//!
+//! Everything is dimensionless unless a name carries a unit. v = √(E/ρ) is the speed in a bar, c_d and c_s are
+//! the dilatational and shear speeds of the plane; a bond-based plane has C12 = C66 = C11/3 in plane stress
+//! (ν = 1/3) and in plane strain (ν = 1/4) alike, so the same dimensionless answers serve both.
+#![warn(missing_docs)]
+
+pub mod cell;
+pub mod continuum;
+pub mod double_double;
+pub mod finite_differences;
+pub mod lattice;
+pub mod leapfrog;
+pub mod micromodulus;
+pub mod oracles;
+pub mod scattering;
+
+mod absorbing;
+mod band_edge;
+mod bonds;
+mod kernel;
+mod pulse;
+mod quadrature;
+
+pub use bonds::{Lattice, VolumeRule};
+pub use kernel::Kernel;
+
+/// Which of the two plane waves of the plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Branch {
+    /// Dilatational: the displacement nearer to the direction of travel.
+    P,
+    /// Shear: the displacement nearer to the direction across it.
+    S,
+}
+
+/// Frequency and group speed of a plane wave, both over the classical speed of its branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wave {
+    /// ω times a length (the horizon or the spacing, as the function says) over the classical speed.
+    pub omega: f64,
+    /// Group speed dω/dk over the classical speed.
+    pub slope: f64,
+}

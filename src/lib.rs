@@ -1,0 +1,14 @@
+//! Peridynamics, verified.
+pub mod claim;
+pub mod compare;
+pub mod dispersion;
+pub mod family;
+pub mod kernel;
+pub mod lattice;
+pub mod material;
+pub mod micromodulus;
+pub mod partial_volume;
+pub mod quadrature;
+pub mod report;
+pub mod table;
+pub mod verdict;

@@ -1,0 +1,130 @@
+//! The command line: commands and options as users type them.
+
+use crate::question::Profile;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Verification of peridynamics: exact answers, stated tolerances, verdicts that can fail.
+#[derive(Debug, Parser)]
+#[command(name = "pd-verify", version, arg_required_else_help = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Wave dispersion in one and two dimensions: the shipped studies, or the files given
+    Dispersion {
+        /// Study files; none means the shipped studies
+        files: Vec<PathBuf>,
+        #[command(flatten)]
+        options: RunOptions,
+    },
+    /// Run study files of any kind
+    Run {
+        /// Study files
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        #[command(flatten)]
+        options: RunOptions,
+    },
+    /// The shipped studies: what they claim, their source, what they cost
+    List {
+        /// Machine-readable
+        #[arg(long)]
+        json: bool,
+    },
+    /// What a study, case or claim says, against what, and why its bounds are what they are
+    Explain {
+        /// Id of a study, of a case (study/case) or of a claim (study/case/claim)
+        id: String,
+        /// The publications it rests on, as BibTeX
+        #[arg(long)]
+        bibtex: bool,
+    },
+    /// What a study will do and what it costs; runs nothing
+    Plan {
+        /// Id of a shipped study, or a study file
+        study: String,
+        /// Machine-readable
+        #[arg(long)]
+        json: bool,
+        /// How much would be run
+        #[arg(long, value_enum, default_value_t)]
+        profile: Profile,
+        /// Change one value of the study: dotted.path=value
+        #[arg(long, value_name = "PATH=VALUE")]
+        set: Vec<String>,
+    },
+    /// The JSON schema of study files
+    Schema,
+    /// A completion script for your shell
+    Completions {
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
+}
+
+/// Options of every command that computes.
+#[derive(Debug, Clone, Args)]
+pub struct RunOptions {
+    /// Folder of the results
+    #[arg(long, value_name = "DIR", default_value = "reports")]
+    pub out: PathBuf,
+    /// How much is run; never changes a bound
+    #[arg(long, value_enum, default_value_t)]
+    pub profile: Profile,
+    /// Change one value of the study: dotted.path=value
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Threads to use; results do not depend on it
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Instruction set; the best here if not given
+    #[arg(long, value_enum)]
+    pub isa: Option<Isa>,
+    /// Inconclusive counts as failing
+    #[arg(long)]
+    pub strict: bool,
+    /// Print nothing but what fails
+    #[arg(long)]
+    pub quiet: bool,
+    /// No progress on the terminal
+    #[arg(long)]
+    pub no_progress: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Isa {
+    Baseline,
+    Avx2,
+    Avx512,
+}
+
+impl Isa {
+    /// The word on the command line.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Baseline => "baseline",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        }
+    }
+
+    /// Whether this processor has it.
+    pub fn is_here(self) -> bool {
+        #[cfg(target_arch = "x86_64")]
+        {
+            match self {
+                Self::Baseline => true,
+                Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
+                Self::Avx512 => is_x86_feature_detected!("avx512f"),
+            }
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            self == Self::Baseline
+        }
+    }
+}

@@ -1,0 +1,355 @@
+//! Commands that compute: read, refuse, run, judge, write, and end with the code that tells how it went.
+
+use super::say;
+use crate::cli::RunOptions;
+use crate::input::{MAX_BYTES, Refusal, Setting};
+use crate::manifest::{Manifest, StudyHash};
+use crate::output::Output;
+use crate::progress::Progress;
+use crate::run::{Ran, merge, run};
+use crate::shipped::{refuse_unused, shipped};
+use crate::study::{Kind, Study};
+use crate::subject::PdVerify;
+use pd_verify::report::{
+    Drawn, RunSummary, StudyReport, figure_table, index_html, junit_xml, summary_markdown, terminal_table,
+    verdicts_csv,
+};
+use pd_verify::verdict::{Judged, Verdict};
+use std::fs;
+use std::io::{self, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+/// How a command ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    Pass,
+    Fail,
+    Computation,
+    Interrupted,
+}
+
+impl End {
+    /// The exit code of the contract.
+    pub fn code(self) -> u8 {
+        match self {
+            Self::Pass => 0,
+            Self::Fail => 1,
+            Self::Computation => 3,
+            Self::Interrupted => 130,
+        }
+    }
+}
+
+/// A folder of results and the studies that go into it.
+struct Group {
+    folder: String,
+    studies: Vec<Study>,
+}
+
+/// The shipped studies of a kind, all in one folder, or the files given, each in its own.
+pub fn shipped_or_files(
+    kind: Kind,
+    folder: &str,
+    files: &[PathBuf],
+    options: &RunOptions,
+) -> Result<End, Refusal> {
+    let settings = settings(&options.set)?;
+    if !files.is_empty() {
+        return compute(read_files(files, Some(kind), &settings)?, options);
+    }
+    let studies = shipped(Some(kind), &settings)?;
+    compute(vec![Group { folder: folder.to_owned(), studies }], options)
+}
+
+/// Any study files, each with a folder of its own.
+pub fn files(files: &[PathBuf], options: &RunOptions) -> Result<End, Refusal> {
+    let settings = settings(&options.set)?;
+    compute(read_files(files, None, &settings)?, options)
+}
+
+/// The `--set` options as settings.
+pub fn settings(written: &[String]) -> Result<Vec<Setting>, Refusal> {
+    written.iter().map(|text| Setting::parse(text)).collect()
+}
+
+/// Names that shipped commands write to.
+const RESERVED: [&str; 9] =
+    ["dispersion", "bar", "convergence", "dsif", "cost", "stability", "statics", "fracture", "hybrid"];
+
+fn read_files(files: &[PathBuf], kind: Option<Kind>, settings: &[Setting]) -> Result<Vec<Group>, Refusal> {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut used = vec![false; settings.len()];
+    for file in files {
+        let text = read_text(file)?;
+        let (study, found) = Study::read(&file.display().to_string(), &text, settings)?;
+        used.iter_mut().zip(found).for_each(|(used, found)| *used |= found);
+        if kind.is_some_and(|kind| kind != study.kind) {
+            let message = format!("{} is a study of another kind", file.display());
+            return Err(study
+                .document
+                .refuse("kind", message)
+                .help("use `pd-verify run`, which takes any kind"));
+        }
+        let taken = RESERVED.contains(&study.id.as_str());
+        if taken || groups.iter().any(|group| group.folder == study.id) {
+            let reason =
+                if taken { "the folder of a shipped command" } else { "the id of another study of this run" };
+            return Err(study
+                .document
+                .refuse("id", format!("id \"{}\" is {reason}", study.id))
+                .help("choose another id"));
+        }
+        groups.push(Group { folder: study.id.clone(), studies: vec![study] });
+    }
+    refuse_unused(settings, &used)?;
+    Ok(groups)
+}
+
+/// The text of a study file.
+pub fn read_text(file: &Path) -> Result<String, Refusal> {
+    let refuse = |error: &dyn std::fmt::Display| {
+        Refusal::new(format!("cannot read {}: {error}", file.display()))
+            .help("give the path of a study file, or an id from `pd-verify list`")
+    };
+    let size = fs::metadata(file).map_err(|error| refuse(&error))?.len();
+    if size > MAX_BYTES as u64 {
+        return Err(refuse(&format!("{size} bytes are more than a study can have ({MAX_BYTES})")));
+    }
+    fs::read_to_string(file).map_err(|error| refuse(&error))
+}
+
+fn compute(groups: Vec<Group>, options: &RunOptions) -> Result<End, Refusal> {
+    if let Some(isa) = options.isa.filter(|isa| !isa.is_here()) {
+        return Err(Refusal::new(format!("this processor does not have --isa {}", isa.word()))
+            .help("leave --isa out to use the best that is here"));
+    }
+    check_work(&groups, options)?;
+    let folders: Vec<String> = groups.iter().map(|group| group.folder.clone()).collect();
+    let output = Output::open(&options.out, &folders)?;
+    let threads = options.threads.map_or(0, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| {
+        Refusal::new(format!("cannot start threads: {error}")).help("take fewer with --threads")
+    })?;
+    pool.install(|| Ok(compute_and_write(&groups, options, &output)))
+}
+
+/// More than this many visits of a bond are hours of work; nobody means that.
+const MAX_VISITS: u64 = 2_000_000_000_000;
+
+fn check_work(groups: &[Group], options: &RunOptions) -> Result<(), Refusal> {
+    for study in groups.iter().flat_map(|group| &group.studies) {
+        let visits = study.effort(options.profile).bond_evaluations;
+        if visits > MAX_VISITS {
+            let message = format!(
+                "{}: {visits:e} bond evaluations are planned, at most {MAX_VISITS:e} are run",
+                study.id
+            );
+            return Err(Refusal::new(message)
+                .help("see `pd-verify plan`; fewer wavenumbers, smaller m, shorter lists"));
+        }
+    }
+    Ok(())
+}
+
+fn compute_and_write(groups: &[Group], options: &RunOptions, output: &Output) -> End {
+    let cases = groups.iter().flat_map(|group| &group.studies).map(|study| study.cases.len()).sum();
+    let progress = Progress::new(cases, !options.quiet && !options.no_progress);
+    let mut reports = Vec::new();
+    let mut manifests = Vec::new();
+    let mut problems = Vec::new();
+    let (mut failed, mut unfinished) = (false, false);
+    for group in groups {
+        let ran: Vec<Ran> =
+            group.studies.iter().map(|study| run(study, options.profile, &PdVerify, &progress)).collect();
+        failed |= ran.iter().any(|ran| ran.failed);
+        unfinished |= ran.iter().zip(&group.studies).any(|(ran, study)| ran.finished < study.cases.len());
+        if ran.iter().all(|ran| ran.finished == 0) {
+            continue;
+        }
+        let manifest = manifest(&group.studies, options);
+        let (files, studies) = folder_of(&group.studies, ran, &manifest, &mut problems);
+        match output.replace_folder(&group.folder, &files) {
+            Ok(place) => progress.note(&format!("wrote {} files to {}", files.len(), place.display())),
+            Err(error) => problems.push(format!("cannot write the results of {}: {error}", group.folder)),
+        }
+        reports.extend(studies);
+        manifests.push(manifest);
+    }
+    progress.finish();
+    let verdicts: Vec<Verdict> =
+        reports.iter().flat_map(|report: &StudyReport| &report.judged).map(|judged| judged.verdict).collect();
+    problems.extend(finish(reports, &manifests, options, output));
+    for problem in &problems {
+        let _ = writeln!(io::stderr(), "error: {problem}");
+    }
+    if unfinished {
+        return End::Interrupted;
+    }
+    if failed || !problems.is_empty() { End::Computation } else { verdict_of(&verdicts, options.strict) }
+}
+
+/// 0 when at least one claim passes and none fails.
+pub fn verdict_of(verdicts: &[Verdict], strict: bool) -> End {
+    let failing = |verdict: &Verdict| match verdict {
+        Verdict::Fail | Verdict::Xpass | Verdict::Error => true,
+        Verdict::Inconclusive => strict,
+        Verdict::Pass | Verdict::Xfail | Verdict::Skipped => false,
+    };
+    if verdicts.contains(&Verdict::Pass) && !verdicts.iter().any(failing) { End::Pass } else { End::Fail }
+}
+
+fn manifest(studies: &[Study], options: &RunOptions) -> Manifest {
+    let hash = |study: &Study| StudyHash::new(&study.id, study.document.name(), study.document.text());
+    let settings: Vec<String> = studies.iter().flat_map(|study| study.document.settings.clone()).collect();
+    let mut unique: Vec<String> = Vec::new();
+    settings.into_iter().for_each(|setting| {
+        if !unique.contains(&setting) {
+            unique.push(setting)
+        }
+    });
+    let isa = options.isa.map(|isa| isa.word().to_owned());
+    Manifest::of_this_run(options.profile.to_string(), unique, isa, studies.iter().map(hash).collect())
+}
+
+/// The files of a folder of results, and what the page says of its studies.
+fn folder_of(
+    studies: &[Study],
+    ran: Vec<Ran>,
+    manifest: &Manifest,
+    problems: &mut Vec<String>,
+) -> (Vec<(String, String)>, Vec<StudyReport>) {
+    let mut tables = Vec::new();
+    let mut files = vec![("manifest.json".to_owned(), manifest.json())];
+    let mut reports = Vec::new();
+    for (study, ran) in studies.iter().zip(ran) {
+        ran.tables.into_iter().for_each(|table| merge(&mut tables, table));
+        let mut figures = Vec::new();
+        for figure in &ran.figures {
+            match Drawn::new(figure) {
+                Ok(drawn) => {
+                    files.push((format!("{}.svg", drawn.id), drawn.svg.clone()));
+                    figures.push(drawn);
+                }
+                Err(error) => problems.push(format!("figure {}: {error}", figure.id)),
+            }
+            let data = figure_table(figure);
+            files.push((data.file.clone(), data.csv()));
+        }
+        reports.push(StudyReport {
+            id: study.id.clone(),
+            title: study.title.clone(),
+            text: text_of(study),
+            source: study.source.clone(),
+            figures,
+            judged: ran.judged,
+        });
+    }
+    files.extend(tables.iter().map(|table| (table.file.clone(), table.csv())));
+    let judged: Vec<Judged> = reports.iter().flat_map(|report| report.judged.clone()).collect();
+    files.push(("verdicts.csv".to_owned(), verdicts_csv(&judged)));
+    (files, reports)
+}
+
+fn text_of(study: &Study) -> String {
+    let mut equations: Vec<&str> = Vec::new();
+    for line in study.cases.iter().flat_map(|case| case.question.equations().lines()) {
+        if !equations.contains(&line) {
+            equations.push(line);
+        }
+    }
+    [study.about.as_str(), &equations.join("\n\n")]
+        .iter()
+        .filter(|text| !text.is_empty())
+        .copied()
+        .collect::<Vec<_>>()
+        .join("\n\n")
+}
+
+/// Writes what speaks of the whole run and prints the table. Returns what went wrong.
+fn finish(
+    reports: Vec<StudyReport>,
+    manifests: &[Manifest],
+    options: &RunOptions,
+    output: &Output,
+) -> Vec<String> {
+    let Some(manifest) = manifests.first() else { return Vec::new() };
+    let mut pairs = manifest.pairs();
+    for other in &manifests[1..] {
+        pairs.extend(other.pairs().into_iter().filter(|(name, _)| name.starts_with("study ")));
+    }
+    let title = "Verification of peridynamics".to_owned();
+    let summary = RunSummary { title, command: manifest.command(), manifest: pairs, studies: reports };
+    let judged: Vec<Judged> = summary.judged().cloned().collect();
+    let markdown = summary_markdown(&summary);
+    let files = [
+        ("verdicts.csv", verdicts_csv(&judged)),
+        ("summary.md", markdown.clone()),
+        ("junit.xml", junit_xml(&summary)),
+        ("index.html", index_html(&summary)),
+    ];
+    let mut problems = Vec::new();
+    for (name, text) in files {
+        if let Err(error) = output.replace_file(name, &text) {
+            problems.push(format!("cannot write {name}: {error}"));
+        }
+    }
+    if let Err(error) = append_step_summary(&markdown) {
+        problems.push(format!("cannot append to GITHUB_STEP_SUMMARY: {error}"));
+    }
+    if let Err(error) = print_table(&judged, options) {
+        problems.push(format!("cannot print: {error}"));
+    }
+    problems
+}
+
+/// GitHub shows what is appended to the file named by `GITHUB_STEP_SUMMARY`.
+fn append_step_summary(markdown: &str) -> io::Result<()> {
+    match std::env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
+        Some(path) => {
+            fs::OpenOptions::new().create(true).append(true).open(path)?.write_all(markdown.as_bytes())
+        }
+        None => Ok(()),
+    }
+}
+
+fn print_table(judged: &[Judged], options: &RunOptions) -> io::Result<()> {
+    let failing = |one: &&Judged| matches!(one.verdict, Verdict::Fail | Verdict::Xpass | Verdict::Error);
+    let shown: Vec<Judged> =
+        if options.quiet { judged.iter().filter(failing).cloned().collect() } else { judged.to_vec() };
+    if shown.is_empty() {
+        return Ok(());
+    }
+    let terminal = io::stdout().is_terminal();
+    let colour = terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    let width = if terminal { terminal_width() } else { 120 };
+    say(&terminal_table(&shown, width, colour))
+}
+
+/// The width of the terminal, as its shell tells it.
+fn terminal_width() -> usize {
+    std::env::var("COLUMNS").ok().and_then(|text| text.parse().ok()).unwrap_or(100)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_judged_is_not_a_pass() {
+        use Verdict::{Error, Fail, Inconclusive, Pass, Skipped, Xfail, Xpass};
+        for (verdicts, strict, end) in [
+            (vec![], false, End::Fail),
+            (vec![Skipped], false, End::Fail),
+            (vec![Xfail], false, End::Fail),
+            (vec![Pass], true, End::Pass),
+            (vec![Pass, Xfail, Skipped, Inconclusive], false, End::Pass),
+            (vec![Pass, Inconclusive], true, End::Fail),
+            (vec![Pass, Fail], false, End::Fail),
+            (vec![Pass, Xpass], false, End::Fail),
+            (vec![Pass, Error], false, End::Fail),
+        ] {
+            assert_eq!(verdict_of(&verdicts, strict), end, "{verdicts:?}");
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! What each command does.
+
+pub mod explain;
+pub mod judge;
+pub mod list;
+pub mod plan;
+
+use std::io::{self, Write};
+
+/// Prints to standard output; a reader who has left is no error.
+pub fn say(text: &str) -> io::Result<()> {
+    match io::stdout().write_all(text.as_bytes()).and_then(|()| io::stdout().flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        other => other,
+    }
+}

@@ -1,0 +1,180 @@
+//! `asks = "heat_map"`: worst phase error over directions and branches, by kernel, p and m, at equal nodes per wave.
+
+use super::curve::{Curve, Medium};
+use super::sweep::{LatticeSweep, Wrong, check_m, unusable};
+use crate::input::Positive;
+use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
+use crate::subject::Subject;
+use pd_verify::claim::{Basis, Claim, ErrorKind};
+use pd_verify::compare::largest;
+use pd_verify::dispersion::{Branch, Wave};
+use pd_verify::kernel::Kernel;
+use pd_verify::lattice::Lattice;
+use pd_verify::material::Body;
+use pd_verify::report::plot::{Axis, Figure, HeatMap as HeatMapPanel};
+use pd_verify::table::Table;
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::f64::consts::TAU;
+
+/// The case as written; plane stress and plane strain have the same answer.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HeatMapAsked {
+    /// Wavelength over Δx, above 2.
+    pub nodes_per_wavelength: Positive,
+    pub lattice: LatticeSweep,
+}
+
+/// The case, checked.
+pub struct HeatMap {
+    title: String,
+    k_dx: f64,
+    lattices: Vec<Lattice>,
+}
+
+impl HeatMapAsked {
+    pub fn check(&self, title: &str) -> Result<HeatMap, Wrong> {
+        if self.nodes_per_wavelength.0 <= 2.0 {
+            let message =
+                format!("{} nodes per wavelength are no wave on a grid", self.nodes_per_wavelength.0);
+            return Err(Wrong::new("nodes_per_wavelength", message, "take more than 2, for example 20"));
+        }
+        let lattices = self.lattice.lattices().map_err(|wrong| wrong.inside("lattice"))?;
+        for lattice in &lattices {
+            check_m(Body::PlaneStress, lattice.m).map_err(|wrong| wrong.inside("lattice"))?;
+        }
+        Ok(HeatMap { title: title.to_owned(), k_dx: TAU / self.nodes_per_wavelength.0, lattices })
+    }
+}
+
+const DIRECTIONS: [f64; 4] = [0.0, 15.0, 30.0, 45.0];
+
+impl Question for HeatMap {
+    fn claims(&self, place: &Place) -> Vec<Claim> {
+        vec![
+            claim(place, "worst_phase_error", "largest error of the worst phase error, over all cells")
+                .at_most(ErrorKind::Absolute, 1e-13)
+                .because(Basis::Rounding, "2×2 eigenvalues of sums of positive terms")
+                .source("the same matrices summed in double-double arithmetic"),
+        ]
+    }
+
+    fn effort(&self) -> Effort {
+        let count = self.lattices.len() as u64;
+        let bonds: f64 = self.lattices.iter().map(|lattice| 1.6 * lattice.m * lattice.m).sum();
+        let waves = 2 * DIRECTIONS.len() as u64;
+        Effort {
+            curves: count,
+            evaluations: count * waves,
+            bond_evaluations: bonds as u64 * waves,
+            reference_evaluations: count * waves,
+        }
+    }
+
+    fn equations(&self) -> &'static str {
+        "max over θ and branch of |ω/(ck) − 1|, at kΔx = 2π/(nodes per wavelength)"
+    }
+
+    fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
+        let found: Vec<(Option<f64>, Option<f64>)> =
+            self.lattices.par_iter().map(|&lattice| self.cell(subject, lattice)).collect();
+        let differences = found.iter().filter_map(|(mine, exact)| match (mine, exact) {
+            (Some(mine), Some(exact)) => Some((mine - exact).abs()),
+            (None, None) => None,
+            _ => Some(f64::INFINITY),
+        });
+        let cells = found.iter().filter(|(mine, _)| mine.is_some()).count();
+        let evidence =
+            vec![("worst_phase_error".into(), error_of(largest(differences), format!("{cells} cells")))];
+        let mut table = Table::new(
+            "worst_phase_error.csv",
+            &["case", "kernel", "p", "m", "volume_rule", "calibrated", "k_dx", "worst_phase_error_percent"],
+        );
+        for (lattice, (mine, _)) in self.lattices.iter().zip(&found) {
+            table.rows.push(vec![
+                place.case.clone().into(),
+                lattice.kernel.name().into(),
+                lattice.kernel.p().into(),
+                lattice.m.into(),
+                lattice.volume_rule.name().into(),
+                lattice.calibrated.into(),
+                self.k_dx.into(),
+                mine.map(|error| 100.0 * error).into(),
+            ]);
+        }
+        let values: Vec<Option<f64>> =
+            found.iter().map(|(mine, _)| mine.map(|error| 100.0 * error)).collect();
+        Answer { evidence, tables: vec![table], figures: self.figure(&values, place) }
+    }
+}
+
+impl HeatMap {
+    /// Worst phase error by the code under judgement and by the reference; `None` where the lattice is unusable.
+    fn cell(&self, subject: &dyn Subject, lattice: Lattice) -> (Option<f64>, Option<f64>) {
+        if unusable(Body::PlaneStress, lattice).is_some() {
+            return (None, None);
+        }
+        let medium = Medium::Lattice { lattice, dx: 1.0 };
+        let worst = |wave: &dyn Fn(&Curve) -> Option<Wave>| {
+            let curves = [Branch::P, Branch::S].into_iter().flat_map(|branch| {
+                DIRECTIONS.map(|degrees| Curve {
+                    body: Body::PlaneStress,
+                    medium,
+                    courant: None,
+                    branch,
+                    degrees,
+                })
+            });
+            largest(
+                curves.map(|curve| wave(&curve).map_or(f64::NAN, |wave| (wave.phase(self.k_dx) - 1.0).abs())),
+            )
+        };
+        let mine = worst(&|curve| curve.prepare(subject).ok()?.wave(self.k_dx));
+        (mine, worst(&|curve| curve.reference(self.k_dx)))
+    }
+
+    /// One panel for each volume rule and calibration: kernels down, m across.
+    fn figure(&self, values: &[Option<f64>], place: &Place) -> Vec<Figure> {
+        let mut kernels: Vec<Kernel> = Vec::new();
+        let mut sizes: Vec<f64> = Vec::new();
+        let mut kinds = Vec::new();
+        for lattice in &self.lattices {
+            if !kernels.contains(&lattice.kernel) {
+                kernels.push(lattice.kernel);
+            }
+            if !sizes.contains(&lattice.m) {
+                sizes.push(lattice.m);
+            }
+            if !kinds.contains(&(lattice.volume_rule, lattice.calibrated)) {
+                kinds.push((lattice.volume_rule, lattice.calibrated));
+            }
+        }
+        let largest_shown = values.iter().flatten().copied().fold(0.0, f64::max).max(1e-3);
+        let smallest_shown = values.iter().flatten().copied().fold(largest_shown, f64::min).max(1e-3);
+        let panels = kinds.into_iter().map(|(volume_rule, calibrated)| {
+            let value = |kernel: Kernel, m: f64| {
+                let wanted = Lattice { kernel, m, volume_rule, calibrated };
+                let at = self.lattices.iter().position(|lattice| *lattice == wanted)?;
+                values[at]
+            };
+            let rows =
+                kernels.iter().map(|&kernel| sizes.iter().map(|&m| value(kernel, m)).collect()).collect();
+            let title =
+                format!("{}, {}", volume_rule.name(), if calibrated { "calibrated" } else { "as printed" });
+            HeatMapPanel::new(
+                ("m = δ/Δx", sizes.iter().map(f64::to_string).collect()),
+                ("kernel", kernels.iter().map(Kernel::to_string).collect()),
+                Axis::log("worst phase error (%)").range(smallest_shown, largest_shown),
+                rows,
+            )
+            .titled(title)
+        });
+        let mut panels = panels.collect::<Vec<_>>().into_iter();
+        let Some(first) = panels.next() else { return Vec::new() };
+        let title = format!("{}, {:.4} nodes per wavelength", self.title, TAU / self.k_dx);
+        let figure = Figure::new(place.case.clone(), title, self.title.clone(), first);
+        vec![panels.fold(figure, Figure::panel).columns(2)]
+    }
+}

@@ -1,0 +1,334 @@
+//! `asks = "moduli"`: the moduli a lattice really has, before and after calibration, and their anisotropy.
+
+use super::curve::reference_lattice;
+use super::sweep::{BodyName, LatticeSweep, Wrong, check_m, unusable};
+use crate::input::OneOrMany;
+use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
+use crate::subject::Subject;
+use pd_verify::claim::{Basis, Claim, ErrorKind};
+use pd_verify::compare::largest;
+use pd_verify::kernel::Kernel;
+use pd_verify::lattice::{Calibration, Lattice, Moduli as LatticeModuli};
+use pd_verify::material::Body;
+use pd_verify::report::plot::{Axis, Category, Dots, Figure};
+use pd_verify::table::{Cell, Table};
+use pd_verify_reference as reference;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The case as written.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModuliAsked {
+    pub body: OneOrMany<BodyName>,
+    pub lattice: LatticeSweep,
+}
+
+/// The case, checked. Unusable lattices stay in the table, named as such.
+pub struct Moduli {
+    title: String,
+    asked: Vec<(Body, Lattice)>,
+}
+
+impl ModuliAsked {
+    pub fn check(&self, title: &str) -> Result<Moduli, Wrong> {
+        let lattices = self.lattice.lattices().map_err(|wrong| wrong.inside("lattice"))?;
+        let mut asked = Vec::new();
+        for &body in &self.body.0 {
+            for &lattice in &lattices {
+                check_m(body.into(), lattice.m).map_err(|wrong| wrong.inside("lattice"))?;
+                asked.push((body.into(), lattice));
+            }
+        }
+        if asked.iter().all(|&(body, lattice)| unusable(body, lattice).is_some()) {
+            let (body, lattice) = asked[0];
+            let reason = unusable(body, lattice).expect("every lattice is unusable");
+            return Err(Wrong::new("lattice.m", reason.to_string(), reason.cure()));
+        }
+        Ok(Moduli { title: title.to_owned(), asked })
+    }
+}
+
+/// What a lattice was found to have.
+struct Measured {
+    neighbours: usize,
+    before: LatticeModuli,
+    after: LatticeModuli,
+    calibration: Option<Calibration>,
+    negative_bonds: usize,
+}
+
+impl Question for Moduli {
+    fn claims(&self, place: &Place) -> Vec<Claim> {
+        let mut claims = vec![
+            claim(
+                place,
+                "moduli",
+                "largest error of C11 and C12, as printed and in use, over the intended ones",
+            )
+            .at_most(ErrorKind::Absolute, 1e-12)
+            .because(Basis::Rounding, "sums of up to some thousand terms, and one 2×2 solution")
+            .source("the same sums over an independently enumerated family, double-double arithmetic"),
+            claim(place, "families", "families whose size differs from the reference's")
+                .exactly()
+                .because(Basis::Theory, "a count is exact")
+                .source("independent enumeration of the family"),
+        ];
+        if self.any(|lattice| lattice.calibrated) {
+            claims.push(
+                claim(place, "calibrated", "largest |C/C_intended − 1| of calibrated lattices")
+                    .at_most(ErrorKind::Absolute, 1e-12)
+                    .because(Basis::Rounding, "calibration solves for exactly these moduli")
+                    .source("definition: C11 and C12 = C66 as intended"),
+            );
+        }
+        claims
+    }
+
+    fn effort(&self) -> Effort {
+        let bonds = |&(body, lattice): &(Body, Lattice)| match body {
+            Body::Bar => lattice.m,
+            Body::PlaneStress | Body::PlaneStrain => 2.0 * lattice.m * lattice.m,
+        };
+        let visited: f64 = self.asked.iter().map(bonds).sum();
+        let count = self.asked.len() as u64;
+        Effort {
+            curves: count,
+            evaluations: count,
+            bond_evaluations: visited as u64,
+            reference_evaluations: 2 * count,
+        }
+    }
+
+    fn equations(&self) -> &'static str {
+        "C₁₁ = Σ w |r|² cos⁴θ, C₁₂ = C₆₆ = Σ w |r|² cos²θ sin²θ over half the family; Zener's ratio 2C₆₆/(C₁₁ − C₁₂)
+calibration: bonds times α + β cos 4θ, α and β from C₁₁ and C₁₂ as intended (one factor in a bar)"
+    }
+
+    fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
+        let measured: Vec<_> = self
+            .asked
+            .iter()
+            .map(|&(body, lattice)| measure(subject, body, lattice).map_err(|e| e.to_string()))
+            .collect();
+        let usable = || {
+            let pairs = self.asked.iter().zip(&measured);
+            pairs.filter_map(|(&(body, lattice), found)| {
+                found.as_ref().ok().map(|found| (body, lattice, found))
+            })
+        };
+        let refused = self.asked.len() - usable().count();
+        let note = format!("{} lattices, {refused} refused", self.asked.len() - refused);
+        let error = largest(usable().map(|(body, lattice, found)| error_of_moduli(body, lattice, found)));
+        let wrong_sizes =
+            usable().filter(|(body, lattice, found)| found.neighbours != exact_size(*body, *lattice)).count();
+        let calibrated = usable().filter(|(_, lattice, _)| lattice.calibrated);
+        let residual = largest(calibrated.map(|(body, _, found)| {
+            let shear = if body == Body::Bar { 0.0 } else { (found.after.c12 - 1.0).abs() };
+            (found.after.c11 - 1.0).abs().max(shear)
+        }));
+        let evidence = vec![
+            ("moduli".into(), error_of(error, note.clone())),
+            ("families".into(), crate::question::value_of(Some(wrong_sizes as f64), Some(0.0), note.clone())),
+            ("calibrated".into(), error_of(residual, note)),
+        ];
+        let negative: usize = usable().map(|(_, _, found)| found.negative_bonds).sum();
+        Answer {
+            evidence,
+            tables: vec![self.table(&measured, place)],
+            figures: self.figure(&measured, place, negative),
+        }
+    }
+}
+
+fn measure(
+    subject: &dyn Subject,
+    body: Body,
+    lattice: Lattice,
+) -> Result<Measured, pd_verify::lattice::Unusable> {
+    if body == Body::Bar {
+        let stencil = subject.bar_stencil(lattice)?;
+        Ok(Measured {
+            neighbours: 2 * stencil.bonds.len(),
+            before: stencil.before,
+            after: stencil.after,
+            calibration: stencil.calibration,
+            negative_bonds: stencil.negative_bonds(),
+        })
+    } else {
+        let stencil = subject.plane_stencil(lattice)?;
+        Ok(Measured {
+            neighbours: 2 * stencil.bonds.len(),
+            before: stencil.before,
+            after: stencil.after,
+            calibration: stencil.calibration,
+            negative_bonds: stencil.negative_bonds(),
+        })
+    }
+}
+
+fn exact_size(body: Body, lattice: Lattice) -> usize {
+    let of = reference_lattice(lattice);
+    match body {
+        Body::Bar => reference::lattice::neighbours_bar(of.m, of.rule),
+        Body::PlaneStress | Body::PlaneStrain => reference::lattice::neighbours_plane(of.m, of.rule),
+    }
+}
+
+fn error_of_moduli(body: Body, lattice: Lattice, found: &Measured) -> f64 {
+    let exact = |calibrated| {
+        let of = reference::Lattice { calibrated, ..reference_lattice(lattice) };
+        if body == Body::Bar {
+            return [reference::lattice::bar_modulus(of), 0.0, 0.0];
+        }
+        let moduli = reference::lattice::plane_moduli(of);
+        [moduli.c11, moduli.c12, moduli.c66]
+    };
+    let difference = |found: LatticeModuli, exact: [f64; 3]| {
+        let shear = if body == Body::Bar { [0.0; 2] } else { [found.c12 - exact[1], found.c12 - exact[2]] };
+        shear.iter().fold((found.c11 - exact[0]).abs(), |most, d| most.max(d.abs()))
+    };
+    difference(found.before, exact(false)).max(difference(found.after, exact(lattice.calibrated)))
+}
+
+impl Moduli {
+    fn any(&self, f: impl Fn(Lattice) -> bool) -> bool {
+        self.asked.iter().any(|&(_, lattice)| f(lattice))
+    }
+
+    fn table(&self, measured: &[Result<Measured, String>], place: &Place) -> Table {
+        let columns = [
+            "case",
+            "body",
+            "kernel",
+            "p",
+            "m",
+            "volume_rule",
+            "calibrated",
+            "neighbours",
+            "c11_as_printed",
+            "c12_as_printed",
+            "zener_as_printed",
+            "c11_in_use",
+            "c12_in_use",
+            "zener_in_use",
+            "alpha",
+            "beta",
+            "speed_p_0_deg",
+            "speed_p_45_deg",
+            "speed_s_0_deg",
+            "speed_s_45_deg",
+            "negative_bonds",
+            "refused",
+        ];
+        let mut table = Table::new("moduli.csv", &columns);
+        for (&(body, lattice), found) in self.asked.iter().zip(measured) {
+            let mut row: Vec<Cell> = vec![
+                place.case.clone().into(),
+                body.name().into(),
+                lattice.kernel.name().into(),
+                lattice.kernel.p().into(),
+                lattice.m.into(),
+                lattice.volume_rule.name().into(),
+                lattice.calibrated.into(),
+            ];
+            match found {
+                Ok(found) => row.extend(cells(body, found)),
+                Err(reason) => {
+                    row.extend(std::iter::repeat_n(Cell::Empty, 14));
+                    row.push(reason.clone().into());
+                }
+            }
+            table.rows.push(row);
+        }
+        table
+    }
+
+    /// Lattice modulus over the intended one, uncalibrated, by kernel and m: a panel for each volume rule.
+    fn figure(&self, measured: &[Result<Measured, String>], place: &Place, negative: usize) -> Vec<Figure> {
+        let found: Vec<(Body, Lattice, LatticeModuli)> = self
+            .asked
+            .iter()
+            .zip(measured)
+            .filter_map(|(&(body, lattice), found)| {
+                found.as_ref().ok().map(|found| (body, lattice, found.before))
+            })
+            .collect();
+        let plane: Vec<_> = found.iter().filter(|(body, ..)| *body == Body::PlaneStress).collect();
+        let mut kernels: Vec<Kernel> = Vec::new();
+        let mut sizes: Vec<f64> = Vec::new();
+        for (_, lattice, _) in &plane {
+            if !kernels.contains(&lattice.kernel) {
+                kernels.push(lattice.kernel);
+            }
+            if !sizes.contains(&lattice.m) {
+                sizes.push(lattice.m);
+            }
+        }
+        sizes.truncate(6);
+        let groups: Vec<String> = sizes.iter().map(|m| format!("m = {m}")).collect();
+        let mut panels = Vec::new();
+        for rule in pd_verify::partial_volume::VolumeRule::ALL {
+            for (name, modulus) in MODULI {
+                let value = |kernel: Kernel, m: f64| {
+                    let mine = |l: &Lattice| l.kernel == kernel && l.m == m && l.volume_rule == rule;
+                    plane
+                        .iter()
+                        .find(|(_, lattice, _)| mine(lattice))
+                        .map_or(f64::NAN, |(.., moduli)| modulus(moduli))
+                };
+                let categories = kernels.iter().map(|&kernel| {
+                    Category::new(
+                        kernel.to_string(),
+                        sizes.iter().map(|&m| value(kernel, m)).collect::<Vec<_>>(),
+                    )
+                });
+                let panel = Dots::new(
+                    Axis::linear(format!("lattice {name} / intended")),
+                    groups.clone(),
+                    categories.collect(),
+                )
+                .titled(format!("{name}, volume rule {}", rule.name()))
+                .reference(1.0, "intended");
+                if plane.iter().any(|(_, lattice, _)| lattice.volume_rule == rule) {
+                    panels.push(panel);
+                }
+            }
+        }
+        let mut panels = panels.into_iter();
+        let Some(first) = panels.next() else { return Vec::new() };
+        let caption = format!(
+            "{}. Plane stress (plane strain has the same ratios), weights as printed. Bonds with negative weight after calibration: {negative}.",
+            self.title
+        );
+        let figure = Figure::new(place.case.clone(), self.title.clone(), caption, first);
+        vec![panels.fold(figure, Figure::panel).columns(2)]
+    }
+}
+
+const MODULI: [(&str, fn(&LatticeModuli) -> f64); 2] =
+    [("C11", |moduli| moduli.c11), ("C66", |moduli| moduli.c12)];
+
+fn cells(body: Body, found: &Measured) -> Vec<Cell> {
+    let plane = body != Body::Bar;
+    let LatticeModuli { c11, c12 } = found.after;
+    // Along a diagonal ρc² = (C11 + C12 + 2C66)/2 and (C11 − C12)/2, with C11 = 3C12 = 3C66 intended.
+    let (p_45, s_45) = ((c11 + c12) / 2.0, (3.0 * c11 - c12) / 2.0);
+    vec![
+        found.neighbours.into(),
+        found.before.c11.into(),
+        plane.then_some(found.before.c12).into(),
+        plane.then(|| found.before.zener_ratio()).into(),
+        c11.into(),
+        plane.then_some(c12).into(),
+        plane.then(|| found.after.zener_ratio()).into(),
+        found.calibration.map(|calibration| calibration.alpha).into(),
+        found.calibration.filter(|_| plane).map(|calibration| calibration.beta).into(),
+        c11.sqrt().into(),
+        plane.then(|| p_45.sqrt()).into(),
+        plane.then(|| c12.sqrt()).into(),
+        plane.then(|| s_45.sqrt()).into(),
+        found.negative_bonds.into(),
+        Cell::Empty,
+    ]
+}

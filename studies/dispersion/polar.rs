@@ -1,0 +1,143 @@
+//! `asks = "polar"`: phase-speed error over the direction of travel, P and S, at a given number of nodes per wave.
+
+use super::curve::{Curve, Medium, labels};
+use super::sweep::{LatticeSweep, Wrong};
+use super::symmetry::all_usable;
+use crate::input::Positive;
+use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
+use crate::subject::Subject;
+use pd_verify::claim::{Basis, Claim, ErrorKind};
+use pd_verify::compare::largest;
+use pd_verify::dispersion::Branch;
+use pd_verify::material::Body;
+use pd_verify::report::plot::{Axis, Figure, Polar as PolarPanel, Series};
+use pd_verify::table::Table;
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::f64::consts::TAU;
+
+/// The case as written; plane stress and plane strain have the same answer.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PolarAsked {
+    /// Wavelength over Δx, above 2.
+    pub nodes_per_wavelength: Positive,
+    pub lattice: LatticeSweep,
+    /// Whether finite differences are drawn beside.
+    pub finite_differences: Option<bool>,
+}
+
+/// The case, checked.
+pub struct Polar {
+    title: String,
+    k_dx: f64,
+    media: Vec<Medium>,
+}
+
+impl PolarAsked {
+    pub fn check(&self, title: &str) -> Result<Polar, Wrong> {
+        if self.nodes_per_wavelength.0 <= 2.0 {
+            let message =
+                format!("{} nodes per wavelength are no wave on a grid", self.nodes_per_wavelength.0);
+            return Err(Wrong::new("nodes_per_wavelength", message, "take more than 2, for example 10"));
+        }
+        let usable = self.lattice.lattices().and_then(|all| all_usable(Body::PlaneStress, all));
+        let lattices = usable.map_err(|wrong| wrong.inside("lattice"))?;
+        let mut media: Vec<Medium> =
+            lattices.into_iter().map(|lattice| Medium::Lattice { lattice, dx: 1.0 }).collect();
+        if self.finite_differences == Some(true) {
+            media.push(Medium::FiniteDifferences { dx: 1.0 });
+        }
+        Ok(Polar { title: title.to_owned(), k_dx: TAU / self.nodes_per_wavelength.0, media })
+    }
+}
+
+const STEP: u32 = 3;
+
+fn curve(medium: Medium, branch: Branch, degrees: f64) -> Curve {
+    Curve { body: Body::PlaneStress, medium, courant: None, branch, degrees }
+}
+
+impl Question for Polar {
+    fn claims(&self, place: &Place) -> Vec<Claim> {
+        vec![
+            claim(place, "phase_speed", "largest error of the phase speed over c, every 15° of the circle")
+                .at_most(ErrorKind::Absolute, 1e-13)
+                .because(Basis::Rounding, "a 2×2 eigenvalue of a sum of positive terms")
+                .source("the same matrix summed in double-double arithmetic"),
+        ]
+    }
+
+    fn effort(&self) -> Effort {
+        let curves = 2 * self.media.len() as u64;
+        let evaluations = curves * u64::from(360 / STEP + 1);
+        Effort { curves, evaluations, bond_evaluations: evaluations * 40, reference_evaluations: curves * 24 }
+    }
+
+    fn equations(&self) -> &'static str {
+        "eigenvalues of Σ w n⊗n 4 sin²(k·ξ/2) over c²k², k = 2π/λ (cos θ, sin θ)"
+    }
+
+    fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
+        let asked: Vec<(Branch, Medium)> = [Branch::P, Branch::S]
+            .into_iter()
+            .flat_map(|branch| self.media.iter().map(move |&m| (branch, m)))
+            .collect();
+        let traced: Vec<(Vec<(f64, f64)>, f64)> =
+            asked.par_iter().map(|&(branch, medium)| self.trace(subject, branch, medium)).collect();
+        let names =
+            labels(&self.media.iter().map(|&medium| curve(medium, Branch::P, 0.0)).collect::<Vec<_>>());
+        let mut table = Table::new(
+            "polar_phase_error.csv",
+            &["case", "branch", "medium", "k_dx", "angle_deg", "phase_speed_error_percent"],
+        );
+        let mut panels = [Vec::new(), Vec::new()];
+        for (index, ((branch, _), (points, _))) in asked.iter().zip(&traced).enumerate() {
+            let name = &names[index % self.media.len()];
+            for &(degrees, error) in points {
+                table.rows.push(vec![
+                    place.case.clone().into(),
+                    branch.name().into(),
+                    name.clone().into(),
+                    self.k_dx.into(),
+                    degrees.into(),
+                    error.into(),
+                ]);
+            }
+            panels[usize::from(*branch == Branch::S)].push(Series::line(name.clone(), points.clone()));
+        }
+        let [p, s] = panels;
+        let radial = || Axis::linear("phase-speed error (%)").including(0.0);
+        let title = format!("{}, {:.4} nodes per wavelength", self.title, TAU / self.k_dx);
+        let figure = Figure::new(
+            place.case.clone(),
+            title,
+            self.title.clone(),
+            PolarPanel::new(radial(), p).titled("P waves"),
+        )
+        .panel(PolarPanel::new(radial(), s).titled("S waves"))
+        .columns(2);
+        let error = largest(traced.iter().map(|(_, error)| *error));
+        let evidence = vec![("phase_speed".into(), error_of(error, format!("{} curves", traced.len())))];
+        Answer { evidence, tables: vec![table], figures: vec![figure] }
+    }
+}
+
+impl Polar {
+    /// Phase error in percent by direction, and the largest difference of the phase speed from the reference's.
+    fn trace(&self, subject: &dyn Subject, branch: Branch, medium: Medium) -> (Vec<(f64, f64)>, f64) {
+        let speed = |degrees: f64| {
+            let prepared = curve(medium, branch, degrees).prepare(subject).ok()?;
+            prepared.wave(self.k_dx).map(|wave| wave.phase(self.k_dx))
+        };
+        let points = (0..=360 / STEP)
+            .map(|n| f64::from(n * STEP))
+            .map(|degrees| (degrees, speed(degrees).map_or(f64::NAN, |speed| 100.0 * (speed - 1.0))));
+        let differences = (0..24).map(|n| 15.0 * f64::from(n)).map(|degrees| {
+            let exact = curve(medium, branch, degrees).reference(self.k_dx).map(|wave| wave.phase(self.k_dx));
+            speed(degrees).zip(exact).map_or(f64::NAN, |(mine, exact)| (mine - exact).abs())
+        });
+        (points.collect(), largest(differences).unwrap_or(f64::NAN))
+    }
+}

@@ -1,0 +1,199 @@
+//! `asks = "time_step"`: the sharp limit of leapfrog, 2/ω_max, beside the usual row-sum bound.
+
+use super::curve::reference_lattice;
+use super::sweep::{BodyName, LatticeSweep, Wrong};
+use super::symmetry::all_usable;
+use crate::input::OneOrMany;
+use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
+use crate::subject::Subject;
+use pd_verify::claim::{Basis, Claim, ErrorKind};
+use pd_verify::compare::largest_relative;
+use pd_verify::dispersion::timestep::TimeStep as Limits;
+use pd_verify::lattice::Lattice;
+use pd_verify::material::Body;
+use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Series};
+use pd_verify::table::Table;
+use pd_verify_reference as reference;
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The case as written.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TimeStepAsked {
+    pub body: OneOrMany<BodyName>,
+    pub lattice: LatticeSweep,
+}
+
+/// The case, checked.
+pub struct TimeStep {
+    title: String,
+    asked: Vec<(Body, Lattice)>,
+}
+
+impl TimeStepAsked {
+    pub fn check(&self, title: &str) -> Result<TimeStep, Wrong> {
+        let lattices = self.lattice.lattices().map_err(|wrong| wrong.inside("lattice"))?;
+        let mut asked = Vec::new();
+        for &body in &self.body.0 {
+            let usable =
+                all_usable(body.into(), lattices.clone()).map_err(|wrong| wrong.inside("lattice"))?;
+            asked.extend(usable.into_iter().map(|lattice| (body.into(), lattice)));
+        }
+        Ok(TimeStep { title: title.to_owned(), asked })
+    }
+}
+
+impl Question for TimeStep {
+    fn claims(&self, place: &Place) -> Vec<Claim> {
+        vec![
+            claim(place, "sharp", "largest relative error of 2/ω_max")
+                .at_most(ErrorKind::Relative, 2e-10)
+                .because(
+                    Basis::Theory,
+                    "both searches find the maximum of a trigonometric polynomial to 1e-10",
+                )
+                .source("brute force over the Brillouin zone in an independent code"),
+            claim(place, "row_sum", "largest relative error of √(2ρ/Σ cV/|ξ|)")
+                .at_most(ErrorKind::Relative, 1e-13)
+                .because(Basis::Rounding, "one sum of the weights")
+                .source(
+                    "Silling & Askari 2005, Comput. Struct. 83, 1526; summed in double-double arithmetic",
+                ),
+            claim(place, "row_sum_is_safe", "smallest sharp limit over row-sum bound")
+                .at_least(1.0)
+                .because(Basis::Theory, "Gershgorin: ω_max² ≤ 2Σw/ρ for positive weights")
+                .source("Gershgorin's theorem"),
+        ]
+    }
+
+    fn effort(&self) -> Effort {
+        let work = |&(body, lattice): &(Body, Lattice)| match body {
+            Body::Bar => 8.0 * lattice.m * lattice.m,
+            Body::PlaneStress | Body::PlaneStrain => {
+                (32.0 * lattice.m * lattice.m + 2000.0) * 1.6 * lattice.m * lattice.m
+            }
+        };
+        let visited: f64 = self.asked.iter().map(work).sum();
+        let count = self.asked.len() as u64;
+        Effort {
+            curves: count,
+            evaluations: count,
+            bond_evaluations: visited as u64,
+            reference_evaluations: count,
+        }
+    }
+
+    fn equations(&self) -> &'static str {
+        "leapfrog: sin²(ωΔt/2) = Δt² Ω²/4, hence Δt ≤ 2/Ω_max; row sum: Δt ≤ √(2ρ/Σ cV/|ξ|), sufficient and smaller"
+    }
+
+    fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
+        let found: Vec<Option<(Limits, [f64; 2])>> =
+            self.asked.par_iter().map(|&(body, lattice)| limits(subject, body, lattice)).collect();
+        let complete = found.iter().all(Option::is_some);
+        let judged = || found.iter().flatten();
+        let worst = |n: usize, of: fn(&Limits) -> f64| {
+            let error = complete
+                .then(|| largest_relative(judged().map(|(mine, exact)| (of(mine), exact[n]))))
+                .flatten();
+            error_of(error, format!("{} lattices", self.asked.len()))
+        };
+        let ratios = judged().map(|(mine, _)| mine.sharp / mine.row_sum);
+        let safest = ratios.reduce(f64::min).filter(|_| complete);
+        let evidence = vec![
+            ("sharp".into(), worst(0, |mine| mine.sharp)),
+            ("row_sum".into(), worst(1, |mine| mine.row_sum)),
+            ("row_sum_is_safe".into(), value_of(safest, Some(1.0), "")),
+        ];
+        Answer {
+            evidence,
+            tables: vec![self.table(&found, place)],
+            figures: vec![self.figure(&found, place)],
+        }
+    }
+}
+
+fn limits(subject: &dyn Subject, body: Body, lattice: Lattice) -> Option<(Limits, [f64; 2])> {
+    let of = reference_lattice(lattice);
+    if body == Body::Bar {
+        let mine = subject.bar_time_step(&subject.bar_stencil(lattice).ok()?);
+        return Some((
+            mine,
+            [2.0 / reference::lattice::bar_highest(of), reference::lattice::bar_row_sum(of)],
+        ));
+    }
+    let mine = subject.plane_time_step(&subject.plane_stencil(lattice).ok()?);
+    Some((mine, [2.0 / reference::lattice::plane_highest(of), reference::lattice::plane_row_sum(of)]))
+}
+
+impl TimeStep {
+    fn table(&self, found: &[Option<(Limits, [f64; 2])>], place: &Place) -> Table {
+        let columns = [
+            "case",
+            "body",
+            "kernel",
+            "p",
+            "m",
+            "volume_rule",
+            "calibrated",
+            "sharp_c_dt_over_dx",
+            "row_sum_c_dt_over_dx",
+            "sharp_over_row_sum",
+            "kx_dx_at_limit",
+            "ky_dx_at_limit",
+        ];
+        let mut table = Table::new("timestep.csv", &columns);
+        for (&(body, lattice), found) in self.asked.iter().zip(found) {
+            let limits = found.as_ref().map(|(limits, _)| limits);
+            table.rows.push(vec![
+                place.case.clone().into(),
+                body.name().into(),
+                lattice.kernel.name().into(),
+                lattice.kernel.p().into(),
+                lattice.m.into(),
+                lattice.volume_rule.name().into(),
+                lattice.calibrated.into(),
+                limits.map(|l| l.sharp).into(),
+                limits.map(|l| l.row_sum).into(),
+                limits.map(|l| l.sharp / l.row_sum).into(),
+                limits.map(|l| l.at[0]).into(),
+                limits.and_then(|l| l.at.get(1).copied()).into(),
+            ]);
+        }
+        table
+    }
+
+    fn figure(&self, found: &[Option<(Limits, [f64; 2])>], place: &Place) -> Figure {
+        let mut figure =
+            Figure::new(place.case.clone(), self.title.clone(), self.title.clone(), Lines::default());
+        figure.panels.clear();
+        for body in [Body::Bar, Body::PlaneStress] {
+            let mut series: Vec<Series> = Vec::new();
+            for (&(of, lattice), found) in self.asked.iter().zip(found) {
+                let Some((limits, _)) = found.as_ref().filter(|_| of == body) else { continue };
+                let calibrated = if lattice.calibrated { ", calibrated" } else { "" };
+                let label = format!("{}, {}{calibrated}", lattice.kernel, lattice.volume_rule.name());
+                let point = (lattice.m, limits.sharp / limits.row_sum);
+                match series.iter_mut().find(|series| series.label == label) {
+                    Some(series) => series.points.push(point),
+                    None => series.push(Series::both(label, vec![point])),
+                }
+            }
+            if series.is_empty() {
+                continue;
+            }
+            let title = if body == Body::Bar { "Bar" } else { "Plane" };
+            let panel = Lines::new(
+                Axis::linear("m = δ/Δx"),
+                Axis::linear("sharp limit / row-sum bound").including(1.0),
+                series,
+            )
+            .titled(title)
+            .guide(Guide::Horizontal { at: 1.0, label: "row-sum bound".into() });
+            figure = figure.panel(panel);
+        }
+        figure.columns(2)
+    }
+}

@@ -1,0 +1,82 @@
+//! A refusal: what is wrong with the input, where, and what to write instead.
+
+use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+use std::fmt;
+use std::ops::Range;
+
+/// Bad input. Ends the program with code 2 before anything is computed or written.
+#[derive(Debug)]
+pub struct Refusal {
+    message: String,
+    help: Option<String>,
+    /// What the place is about, under the marked text.
+    label: String,
+    place: Option<Range<usize>>,
+    source: Option<NamedSource<String>>,
+}
+
+impl Refusal {
+    /// A refusal without a place in a file.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into(), help: None, label: "here".into(), place: None, source: None }
+    }
+
+    /// Adds what to do about it.
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Marks the place in the named text.
+    pub fn at(mut self, name: &str, text: &str, place: Option<Range<usize>>) -> Self {
+        self.source = Some(NamedSource::new(name, text.to_owned()));
+        self.place = place;
+        self
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+impl Diagnostic for Refusal {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.as_ref().map(|source| source as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let place = self.place.clone()?;
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(self.label.clone()), place))))
+    }
+}
+
+/// The candidate nearest to a misspelt word, if any is near.
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let word = word.to_lowercase();
+    candidates
+        .into_iter()
+        .map(|candidate| (strsim::jaro_winkler(&word, candidate), candidate))
+        .filter(|(likeness, _)| *likeness > 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nearest_word_is_found_and_far_ones_are_not() {
+        assert_eq!(nearest("gausian", ["constant", "gaussian"]), Some("gaussian"));
+        assert_eq!(nearest("Gaussian", ["constant", "gaussian"]), Some("gaussian"));
+        assert_eq!(nearest("xyzzy", ["constant", "gaussian"]), None);
+    }
+}

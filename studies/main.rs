@@ -1,0 +1,63 @@
+//! `pd-verify`: runs studies of peridynamics, judges them, and ends with a code that a CI can gate on.
+//!
+//! A study file is read and checked whole before anything is computed; its cases ask their questions of the library
+//! and of the reference, evidence is held against claims, and tables, figures and verdicts go to `reports/`.
+
+mod bibliography;
+mod cli;
+mod commands;
+mod dispersion;
+mod input;
+mod manifest;
+mod output;
+mod progress;
+mod question;
+mod run;
+mod shipped;
+mod study;
+mod subject;
+
+#[cfg(test)]
+#[path = "../tests/sabotage/mod.rs"]
+mod sabotage;
+
+use clap::{CommandFactory, Parser};
+use cli::{Cli, Command};
+use commands::{explain, judge, list, plan, say};
+use input::Refusal;
+use std::io::Write;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    progress::listen();
+    match command(Cli::parse()) {
+        Ok(code) => ExitCode::from(code),
+        Err(refusal) => {
+            let _ = writeln!(std::io::stderr(), "{:?}", miette::Report::new(refusal));
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn command(cli: Cli) -> Result<u8, Refusal> {
+    match cli.command {
+        Command::Dispersion { files, options } => {
+            judge::shipped_or_files(study::Kind::Dispersion, "dispersion", &files, &options)
+                .map(judge::End::code)
+        }
+        Command::Run { files, options } => judge::files(&files, &options).map(judge::End::code),
+        Command::List { json } => print(&list::list(json)?),
+        Command::Explain { id, bibtex } => print(&explain::explain(&id, bibtex)?),
+        Command::Plan { study, json, profile, set } => print(&plan::plan(&study, json, profile, &set)?),
+        Command::Schema => print(&format!("{:#}\n", study::schema())),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "pd-verify", &mut script);
+            print(&String::from_utf8_lossy(&script))
+        }
+    }
+}
+
+fn print(text: &str) -> Result<u8, Refusal> {
+    say(text).map(|()| 0).map_err(|error| Refusal::new(format!("cannot print: {error}")))
+}

@@ -1,0 +1,120 @@
+//! Under which circumstances a result was made: version, commit, compiler, machine, command line, study files.
+
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+use std::time::SystemTime;
+
+/// `manifest.json`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Manifest {
+    pub version: &'static str,
+    pub git_commit: Option<&'static str>,
+    pub git_modified: Option<bool>,
+    pub rustc: &'static str,
+    pub target: &'static str,
+    /// The instruction set in use; nothing here has code for more than the target's baseline yet.
+    pub instruction_set: &'static str,
+    pub instruction_set_asked: Option<String>,
+    pub cpu: String,
+    pub threads: usize,
+    pub command_line: Vec<String>,
+    pub profile: String,
+    pub settings: Vec<String>,
+    pub start: String,
+    pub studies: Vec<StudyHash>,
+}
+
+/// A study file and the SHA-256 of its bytes.
+#[derive(Debug, Clone, Serialize)]
+pub struct StudyHash {
+    pub id: String,
+    pub file: String,
+    pub sha256: String,
+}
+
+impl StudyHash {
+    pub fn new(id: &str, file: &str, text: &str) -> Self {
+        let sha256 = Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+        Self { id: id.to_owned(), file: file.to_owned(), sha256 }
+    }
+}
+
+impl Manifest {
+    /// The circumstances of this process.
+    pub fn of_this_run(
+        profile: String,
+        settings: Vec<String>,
+        isa: Option<String>,
+        studies: Vec<StudyHash>,
+    ) -> Self {
+        let known = |text: &'static str| (!text.is_empty()).then_some(text);
+        Self {
+            version: env!("CARGO_PKG_VERSION"),
+            git_commit: known(env!("PD_VERIFY_COMMIT")),
+            git_modified: known(env!("PD_VERIFY_MODIFIED")).map(|text| text == "true"),
+            rustc: env!("PD_VERIFY_RUSTC"),
+            target: env!("PD_VERIFY_TARGET"),
+            instruction_set: "baseline",
+            instruction_set_asked: isa,
+            cpu: cpu_model(),
+            threads: rayon::current_num_threads(),
+            command_line: std::env::args().collect(),
+            profile,
+            settings,
+            start: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+            studies,
+        }
+    }
+
+    /// The bytes of `manifest.json`.
+    pub fn json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a manifest is plain data") + "\n"
+    }
+
+    /// Name and value pairs for a page.
+    pub fn pairs(&self) -> Vec<(String, String)> {
+        let commit = match (self.git_commit, self.git_modified) {
+            (Some(commit), Some(true)) => format!("{commit}, modified"),
+            (Some(commit), _) => commit.to_owned(),
+            (None, _) => "unknown".into(),
+        };
+        let mut pairs = vec![
+            ("version".to_owned(), self.version.to_owned()),
+            ("commit".into(), commit),
+            ("compiler".into(), format!("{}, {}", self.rustc, self.target)),
+            ("instruction set".into(), self.instruction_set.into()),
+            ("processor".into(), self.cpu.clone()),
+            ("threads".into(), self.threads.to_string()),
+            ("profile".into(), self.profile.clone()),
+            ("start".into(), self.start.clone()),
+        ];
+        if !self.settings.is_empty() {
+            pairs.push(("changed by --set".into(), self.settings.join(", ")));
+        }
+        pairs.extend(
+            self.studies
+                .iter()
+                .map(|study| (format!("study {}", study.id), format!("sha256 {}", study.sha256))),
+        );
+        pairs
+    }
+
+    /// The command line as one would type it.
+    pub fn command(&self) -> String {
+        let quoted = |word: &String| {
+            let plain =
+                word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,:".contains(c)) && !word.is_empty();
+            if plain { word.clone() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+        };
+        let arguments = self.command_line.iter().skip(1).map(quoted);
+        std::iter::once("pd-verify".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
+    }
+}
+
+fn cpu_model() -> String {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = info
+        .lines()
+        .find_map(|line| line.strip_prefix("model name")?.split_once(':').map(|(_, name)| name.trim()));
+    model.map_or_else(|| std::env::consts::ARCH.to_owned(), str::to_owned)
+}

@@ -1,0 +1,95 @@
+//! The folder of results: written beside under another name, then put in place whole.
+
+use crate::input::Refusal;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The file by which a folder is known to be ours, and may be replaced.
+const MARK: &str = "manifest.json";
+
+/// `--out`.
+#[derive(Debug, Clone)]
+pub struct Output {
+    root: PathBuf,
+}
+
+impl Output {
+    /// Makes sure that the folder exists and can be written before anything is computed, and that no folder of
+    /// somebody else's stands where results will go.
+    pub fn open(root: &Path, folders: &[String]) -> Result<Self, Refusal> {
+        let refuse = |error: &io::Error| {
+            Refusal::new(format!("cannot write to {}: {error}", root.display()))
+                .help("choose another folder with --out DIR")
+        };
+        for folder in folders {
+            let path = root.join(folder);
+            let foreign = path.exists() && !path.join(MARK).is_file() && !is_empty(&path);
+            if foreign {
+                let message =
+                    format!("{} exists and is not a folder of results: it has no {MARK}", path.display());
+                return Err(
+                    Refusal::new(message).help("move it away, or choose another folder with --out DIR")
+                );
+            }
+        }
+        fs::create_dir_all(root).map_err(|error| refuse(&error))?;
+        let probe = root.join(format!(".probe-{}", std::process::id()));
+        fs::write(&probe, b"").and_then(|()| fs::remove_file(&probe)).map_err(|error| refuse(&error))?;
+        Ok(Self { root: root.to_owned() })
+    }
+
+    /// Replaces a folder of results, all files at once.
+    pub fn replace_folder(&self, name: &str, files: &[(String, String)]) -> io::Result<PathBuf> {
+        let place = self.root.join(name);
+        let partial = self.root.join(format!(".{name}.partial-{}", std::process::id()));
+        let old = self.root.join(format!(".{name}.old-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&partial);
+        let written = fs::create_dir_all(&partial)
+            .and_then(|()| files.iter().try_for_each(|(file, text)| fs::write(partial.join(file), text)));
+        if let Err(error) = written {
+            let _ = fs::remove_dir_all(&partial);
+            return Err(error);
+        }
+        if place.exists() {
+            fs::rename(&place, &old)?;
+        }
+        fs::rename(&partial, &place)?;
+        let _ = fs::remove_dir_all(&old);
+        Ok(place)
+    }
+
+    /// Replaces a file in the root.
+    pub fn replace_file(&self, name: &str, text: &str) -> io::Result<PathBuf> {
+        let place = self.root.join(name);
+        let partial = self.root.join(format!(".{name}.partial-{}", std::process::id()));
+        let written = fs::write(&partial, text).and_then(|()| fs::rename(&partial, &place));
+        if written.is_err() {
+            let _ = fs::remove_file(&partial);
+        }
+        written.map(|()| place)
+    }
+}
+
+fn is_empty(path: &Path) -> bool {
+    fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_none())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_replaced_whole_and_a_foreign_one_is_left_alone() {
+        let root = tempfile::tempdir().unwrap();
+        let output = Output::open(root.path(), &["a".into()]).unwrap();
+        output.replace_folder("a", &[(MARK.into(), "{}".into()), ("x.csv".into(), "1".into())]).unwrap();
+        output.replace_folder("a", &[(MARK.into(), "{}".into())]).unwrap();
+        assert!(!root.path().join("a/x.csv").exists());
+        assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);
+        fs::create_dir(root.path().join("b")).unwrap();
+        fs::write(root.path().join("b/thesis.tex"), "x").unwrap();
+        assert!(Output::open(root.path(), &["b".into()]).is_err());
+        assert!(root.path().join("b/thesis.tex").exists());
+    }
+}

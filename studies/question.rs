@@ -1,0 +1,165 @@
+//! What every study is made of: cases that ask a question, claim an answer beforehand, and bring evidence.
+
+use crate::subject::Subject;
+use pd_verify::claim::{Basis, Claim, ErrorKind, Expectation, Relation};
+use pd_verify::report::plot::Figure;
+use pd_verify::table::Table;
+use pd_verify::verdict::Evidence;
+use std::fmt;
+
+/// How much of a study is run. Chooses levels and cases, never a bound.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Default,
+    serde::Deserialize,
+    schemars::JsonSchema,
+    clap::ValueEnum,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Profile {
+    Quick,
+    #[default]
+    Standard,
+    Full,
+}
+
+impl fmt::Display for Profile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Quick => "quick",
+            Self::Standard => "standard",
+            Self::Full => "full",
+        })
+    }
+}
+
+/// Where a claim stands: its study and its case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    pub study: String,
+    pub case: String,
+}
+
+/// The work a case will do.
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+pub struct Effort {
+    /// Curves or parameter sets.
+    pub curves: u64,
+    /// Frequencies evaluated by the code under judgement.
+    pub evaluations: u64,
+    /// Bonds visited by those evaluations, quadrature points in the continuum.
+    pub bond_evaluations: u64,
+    /// Frequencies evaluated by the reference.
+    pub reference_evaluations: u64,
+}
+
+impl std::ops::AddAssign for Effort {
+    fn add_assign(&mut self, other: Self) {
+        self.curves = self.curves.saturating_add(other.curves);
+        self.evaluations = self.evaluations.saturating_add(other.evaluations);
+        self.bond_evaluations = self.bond_evaluations.saturating_add(other.bond_evaluations);
+        self.reference_evaluations = self.reference_evaluations.saturating_add(other.reference_evaluations);
+    }
+}
+
+/// What a case found: evidence by claim name, rows for the tables, figures.
+#[derive(Debug, Default)]
+pub struct Answer {
+    pub evidence: Vec<(String, Evidence)>,
+    pub tables: Vec<Table>,
+    pub figures: Vec<Figure>,
+}
+
+/// A case's question, ready to be asked.
+pub trait Question: Send + Sync {
+    /// What is claimed, with every bound and its reason; computes nothing.
+    fn claims(&self, place: &Place) -> Vec<Claim>;
+    /// What answering costs; computes nothing.
+    fn effort(&self) -> Effort;
+    /// The equations the claims are about, one per line.
+    fn equations(&self) -> &'static str;
+    /// Asks `subject`, holds its answers against the reference.
+    fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer;
+}
+
+/// Starts a claim; the name is unique within the case.
+pub fn claim(place: &Place, name: &str, quantity: impl Into<String>) -> Claim {
+    Claim {
+        id: format!("{}/{}/{name}", place.study, place.case),
+        study: place.study.clone(),
+        case: place.case.clone(),
+        quantity: quantity.into(),
+        unit: "1".into(),
+        error_kind: ErrorKind::Relative,
+        relation: Relation::AtMost,
+        tolerance: f64::NAN,
+        basis: Basis::Engineering,
+        because: String::new(),
+        expected_order: None,
+        expectation: Expectation::Holds,
+        source: String::new(),
+    }
+}
+
+/// The parts of a claim, in the order in which one says them.
+pub trait Claiming {
+    fn at_most(self, kind: ErrorKind, tolerance: f64) -> Self;
+    fn at_least(self, bound: f64) -> Self;
+    fn within(self, kind: ErrorKind, tolerance: f64) -> Self;
+    fn exactly(self) -> Self;
+    fn order(self, expected: f64, within: f64) -> Self;
+    fn because(self, basis: Basis, why: impl Into<String>) -> Self;
+    fn source(self, source: impl Into<String>) -> Self;
+    fn broken(self, why: impl Into<String>) -> Self;
+}
+
+impl Claiming for Claim {
+    fn at_most(self, error_kind: ErrorKind, tolerance: f64) -> Self {
+        Self { error_kind, relation: Relation::AtMost, tolerance, ..self }
+    }
+
+    fn at_least(self, tolerance: f64) -> Self {
+        Self { error_kind: ErrorKind::Absolute, relation: Relation::AtLeast, tolerance, ..self }
+    }
+
+    fn within(self, error_kind: ErrorKind, tolerance: f64) -> Self {
+        Self { error_kind, relation: Relation::Within, tolerance, ..self }
+    }
+
+    fn exactly(self) -> Self {
+        Self { error_kind: ErrorKind::Count, relation: Relation::Equal, tolerance: 0.0, ..self }
+    }
+
+    fn order(self, expected: f64, within: f64) -> Self {
+        Self { expected_order: Some(expected), ..self.within(ErrorKind::Order, within) }
+    }
+
+    fn because(self, basis: Basis, why: impl Into<String>) -> Self {
+        Self { basis, because: why.into(), ..self }
+    }
+
+    fn source(self, source: impl Into<String>) -> Self {
+        Self { source: source.into(), ..self }
+    }
+
+    fn broken(self, why: impl Into<String>) -> Self {
+        Self { expectation: Expectation::Broken(why.into()), ..self }
+    }
+}
+
+/// Evidence for a claim about the size of an error.
+pub fn error_of(error: Option<f64>, note: impl Into<String>) -> Evidence {
+    Evidence { error, note: note.into(), ..Evidence::default() }
+}
+
+/// Evidence for a claim that a value meets a reference.
+pub fn value_of(computed: Option<f64>, reference: Option<f64>, note: impl Into<String>) -> Evidence {
+    let error = computed.zip(reference).map(|(a, b)| (a - b).abs());
+    Evidence { computed, reference, error, note: note.into(), ..Evidence::default() }
+}

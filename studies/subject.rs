@@ -1,0 +1,102 @@
+//! The code under judgement: this library, or in sabotage tests the library with one ingredient made wrong.
+//!
+//! Studies ask a [`Subject`] for every number they judge, so that a wrong ingredient can be put in its place and
+//! the verdict watched. Each default is the library's own function and nothing else.
+
+use pd_verify::dispersion::bar::BarDispersion;
+use pd_verify::dispersion::joint::{self, Chain, Reflection};
+use pd_verify::dispersion::plane::PlaneDispersion;
+use pd_verify::dispersion::timestep::{self, TimeStep};
+use pd_verify::dispersion::{Branch, Wave, continuum, finite_differences, leapfrog};
+use pd_verify::kernel::Kernel;
+use pd_verify::lattice::{Lattice, Stencil, Unusable};
+use pd_verify::material::Body;
+use pd_verify::micromodulus;
+
+/// What a dispersion study asks of a peridynamics code.
+pub trait Subject: Sync {
+    /// c₀ in N/m⁶.
+    fn micromodulus(
+        &self,
+        body: Body,
+        kernel: Kernel,
+        youngs_modulus: f64,
+        section: f64,
+        horizon: f64,
+    ) -> f64 {
+        micromodulus::constant(body, kernel, youngs_modulus, section, horizon)
+    }
+
+    /// A wave of the continuous bar at kδ.
+    fn continuum_bar(&self, kernel: Kernel, k_horizon: f64) -> Wave {
+        continuum::bar(kernel, k_horizon).0
+    }
+
+    /// A wave of the continuous plate at kδ.
+    fn continuum_plane(&self, kernel: Kernel, branch: Branch, k_horizon: f64) -> Wave {
+        continuum::plane(kernel, branch, k_horizon).0
+    }
+
+    /// The weights of a bar's lattice.
+    fn bar_stencil(&self, lattice: Lattice) -> Result<Stencil<1>, Unusable> {
+        Stencil::new(lattice)
+    }
+
+    /// The weights of a plate's lattice.
+    fn plane_stencil(&self, lattice: Lattice) -> Result<Stencil<2>, Unusable> {
+        Stencil::new(lattice)
+    }
+
+    /// A wave on a bar's lattice at kΔx.
+    fn bar_wave(&self, relation: &BarDispersion, k_dx: f64) -> Wave {
+        relation.wave(k_dx)
+    }
+
+    /// A wave on a plate's lattice at |k|Δx.
+    fn plane_wave(&self, relation: &PlaneDispersion, k_dx: f64, degrees: f64, branch: Branch) -> Wave {
+        relation.wave(k_dx, degrees, branch)
+    }
+
+    /// The larger and the smaller (ωΔx/c_d)² of a plate's lattice at the vector kΔx.
+    fn plane_squares(&self, relation: &PlaneDispersion, k_dx: [f64; 2]) -> [f64; 2] {
+        relation.matrix(k_dx).eigen().0
+    }
+
+    /// A wave of the bar by finite differences, with exact time or leapfrog.
+    fn finite_differences_bar(&self, k_dx: f64, courant: Option<f64>) -> Option<Wave> {
+        match courant {
+            Some(courant) => leapfrog::finite_differences_bar(k_dx, courant),
+            None => Some(finite_differences::bar(k_dx)),
+        }
+    }
+
+    /// A wave of the plate by finite differences, in exact time.
+    fn finite_differences_plane(&self, k_dx: f64, degrees: f64, branch: Branch) -> Wave {
+        finite_differences::plane(k_dx, degrees, branch, finite_differences::QUARTER)
+    }
+
+    /// What leapfrog makes of a wave at cΔt/Δx.
+    fn leapfrog(&self, wave: Wave, courant: f64) -> Option<Wave> {
+        leapfrog::wave(wave, courant, None)
+    }
+
+    /// Time-step limits of a bar.
+    fn bar_time_step(&self, stencil: &Stencil<1>) -> TimeStep {
+        timestep::bar(stencil)
+    }
+
+    /// Time-step limits of a plate.
+    fn plane_time_step(&self, stencil: &Stencil<2>) -> TimeStep {
+        timestep::plane(stencil)
+    }
+
+    /// What a joint sends back of the left chain's wave.
+    fn reflection(&self, left: &Chain, right: &Chain, theta: f64) -> Option<Reflection> {
+        joint::exact(left, right, theta)
+    }
+}
+
+/// This library as it is.
+pub struct PdVerify;
+
+impl Subject for PdVerify {}
