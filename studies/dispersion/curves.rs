@@ -1,8 +1,11 @@
 //! `asks = "curves"`: dispersion curves, their phase error against classical waves, and where it passes 1 % and 5 %.
 
-use super::curve::{Curve, Medium, Prepared, labels};
-use super::sweep::{BodyName, CurveSweep, Wrong};
-use crate::input::Positive;
+use super::curve::{Curve, Medium, Prepared};
+use super::curve_report;
+use super::label::labels;
+use super::sweep::{CurveSweep, Wrong};
+use super::wavenumbers::Wavenumbers;
+use super::words::BodyName;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
 use pd_verify::claim::{Basis, Claim, ErrorKind};
@@ -10,36 +13,10 @@ use pd_verify::compare::largest;
 use pd_verify::dispersion::Wave;
 use pd_verify::family::half_family;
 use pd_verify::material::{Body, Material};
-use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Series};
-use pd_verify::table::{Cell, Table};
 use pd_verify::verdict::Evidence;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
-
-/// Which wavenumbers are drawn: a range, or a list.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Wavenumbers {
-    /// Start of the range, default 0 (logarithmic: one thousandth of the end).
-    pub from_per_m: Option<Positive>,
-    /// End of the range; a grid's curve ends at the edge of its Brillouin zone if that comes first.
-    pub to_per_m: Option<Positive>,
-    /// Points in the range, default 200.
-    pub count: Option<u64>,
-    #[serde(default)]
-    pub spacing: Spacing,
-    /// Instead of a range: these wavenumbers and no others.
-    pub values_per_m: Option<Vec<Positive>>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Spacing {
-    #[default]
-    Linear,
-    Logarithmic,
-}
 
 /// The case as written.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -53,9 +30,10 @@ pub struct CurvesAsked {
 
 /// The case, checked.
 pub struct Curves {
-    title: String,
-    curves: Vec<Curve>,
-    labels: Vec<String>,
+    pub title: String,
+    pub curves: Vec<Curve>,
+    /// What distinguishes each curve from the others.
+    pub labels: Vec<String>,
     wavenumbers: Wavenumbers,
 }
 
@@ -75,7 +53,7 @@ impl CurvesAsked {
             let found = sweep.curves(self.body.into(), material);
             curves.extend(found.map_err(|wrong| wrong.inside(&format!("curve[{index}]")))?);
         }
-        let rows = (curves.len() as u64).saturating_mul(self.wavenumbers.len());
+        let rows = (curves.len() as u64).saturating_mul(self.wavenumbers.count());
         if rows == 0 {
             return Err(Wrong::new("curve", "no curve is asked for", "add a [[case.curve]] table"));
         }
@@ -89,68 +67,6 @@ impl CurvesAsked {
         }
         let labels = labels(&curves);
         Ok(Curves { title: title.to_owned(), curves, labels, wavenumbers: self.wavenumbers.clone() })
-    }
-}
-
-impl Wavenumbers {
-    fn check(&self) -> Result<(), Wrong> {
-        match (&self.values_per_m, &self.to_per_m) {
-            (Some(values), None) if values.is_empty() => Err(Wrong::new(
-                "values_per_m",
-                "an empty list asks for nothing",
-                "give at least one wavenumber",
-            )),
-            (Some(_), None) if self.from_per_m.is_some() || self.count.is_some() => Err(Wrong::new(
-                "values_per_m",
-                "values_per_m and a range exclude each other",
-                "keep one of the two",
-            )),
-            (Some(_), None) => Ok(()),
-            (None, Some(to)) => {
-                if self.from_per_m.is_some_and(|from| from.0 >= to.0) {
-                    return Err(Wrong::new(
-                        "from_per_m",
-                        "the range is empty",
-                        "from_per_m must be below to_per_m",
-                    ));
-                }
-                if self.count.is_some_and(|count| count < 2) {
-                    return Err(Wrong::new("count", "a range needs at least 2 points", "take count = 200"));
-                }
-                Ok(())
-            }
-            (None, None) => {
-                Err(Wrong::new("to_per_m", "no wavenumbers are given", "add to_per_m, or values_per_m"))
-            }
-            (Some(_), Some(_)) => Err(Wrong::new(
-                "values_per_m",
-                "values_per_m and to_per_m exclude each other",
-                "keep one of the two",
-            )),
-        }
-    }
-
-    fn len(&self) -> u64 {
-        self.values_per_m.as_ref().map_or_else(|| self.count.unwrap_or(200), |values| values.len() as u64)
-    }
-
-    /// The wavenumbers of a curve: a range ends at the zone's edge, with a point on it.
-    pub fn of(&self, curve: &Curve) -> Vec<f64> {
-        if let Some(values) = &self.values_per_m {
-            return values.iter().map(|k| k.0).collect();
-        }
-        let to = self.to_per_m.expect("checked").0;
-        let end = curve.zone_edge().map_or(to, |edge| edge.min(to));
-        let steps = self.len() - 1;
-        let logarithmic = self.spacing == Spacing::Logarithmic;
-        let from = self.from_per_m.map_or(if logarithmic { 1e-3 * to } else { 0.0 }, |k| k.0);
-        let at = |n: u64| {
-            let t = n as f64 / steps as f64;
-            if logarithmic { from * libm::pow(to / from, t) } else { from + (to - from) * t }
-        };
-        let mut all: Vec<f64> = (0..=steps).map(at).filter(|&k| k < end * (1.0 - 1e-9)).collect();
-        all.push(end);
-        all
     }
 }
 
@@ -201,7 +117,7 @@ impl Question for Curves {
     }
 
     fn effort(&self) -> Effort {
-        let per_curve = self.wavenumbers.len() + 600;
+        let per_curve = self.wavenumbers.count() + 600;
         let mut effort = Effort { curves: self.curves.len() as u64, ..Effort::default() };
         for curve in &self.curves {
             effort += Effort {
@@ -226,20 +142,21 @@ leapfrog: sin(ωΔt/2) = ΩΔt/2, Ω the frequency in exact time"
         let traced: Vec<Traced> = self.curves.par_iter().map(|curve| self.trace(curve, subject)).collect();
         Answer {
             evidence: self.evidence(&traced),
-            tables: vec![self.curve_table(&traced, place), self.threshold_table(&traced, place)],
-            figures: vec![self.figure(&traced, place)],
+            tables: curve_report::tables(self, &traced, place),
+            figures: curve_report::figures(self, &traced, place),
         }
     }
 }
 
 /// What was found along one curve.
-struct Traced {
-    points: Vec<(f64, Option<Wave>)>,
+pub struct Traced {
+    /// k in 1/m, and ω/c in 1/m with the group velocity over c; `None` where the scheme is unstable.
+    pub points: Vec<(f64, Option<Wave>)>,
     /// Scaled error of ω where the reference was asked.
     omega_errors: Vec<f64>,
     group_errors: Vec<f64>,
     /// First k whose phase error passes each threshold.
-    first: [Option<f64>; 2],
+    pub first: [Option<f64>; 2],
     first_errors: Vec<f64>,
     beyond_reference: usize,
 }
@@ -306,117 +223,6 @@ impl Curves {
             ("first_wavenumber".into(), error_of(first, format!("{passed} crossings reported"))),
         ]
     }
-
-    fn curve_table(&self, traced: &[Traced], place: &Place) -> Table {
-        let mut table = Table::new(
-            "dispersion_curves.csv",
-            &[
-                "curve",
-                "dimension",
-                "branch",
-                "angle_deg",
-                "scheme",
-                "kernel",
-                "p",
-                "m",
-                "dx_m",
-                "horizon_m",
-                "volume_rule",
-                "calibrated",
-                "courant",
-                "k_per_m",
-                "omega_over_c_per_m",
-            ],
-        );
-        for ((curve, label), traced) in self.curves.iter().zip(&self.labels).zip(traced) {
-            let start = describe(curve, format!("{}/{label}", place.case));
-            for &(k, wave) in &traced.points {
-                let mut row = start.clone();
-                row.extend([k.into(), wave.map(|wave| wave.omega).into()]);
-                table.rows.push(row);
-            }
-        }
-        table
-    }
-
-    fn threshold_table(&self, traced: &[Traced], place: &Place) -> Table {
-        let mut table = Table::new(
-            "phase_error_thresholds.csv",
-            &[
-                "curve",
-                "dimension",
-                "branch",
-                "angle_deg",
-                "scheme",
-                "kernel",
-                "p",
-                "m",
-                "dx_m",
-                "horizon_m",
-                "volume_rule",
-                "calibrated",
-                "courant",
-                "first_k_1_percent_per_m",
-                "first_k_5_percent_per_m",
-                "wavelength_1_percent_in_horizons",
-                "wavelength_1_percent_in_dx",
-            ],
-        );
-        for ((curve, label), traced) in self.curves.iter().zip(&self.labels).zip(traced) {
-            let mut row = describe(curve, format!("{}/{label}", place.case));
-            row.extend(traced.first.map(Cell::from));
-            let wavelength = traced.first[0].filter(|&k| k > 0.0).map(|k| 2.0 * std::f64::consts::PI / k);
-            row.push(wavelength.zip(curve.horizon()).map(|(l, horizon)| l / horizon).into());
-            row.push(wavelength.zip(curve.dx()).map(|(l, dx)| l / dx).into());
-            table.rows.push(row);
-        }
-        table
-    }
-
-    fn figure(&self, traced: &[Traced], place: &Place) -> Figure {
-        let drawn = |value: fn(f64, Wave) -> f64| -> Vec<Series> {
-            let series = self.labels.iter().zip(traced).map(|(label, traced)| {
-                let points =
-                    traced.points.iter().map(|&(k, wave)| (k, wave.map_or(f64::NAN, |wave| value(k, wave))));
-                Series::line(label.clone(), points.collect())
-            });
-            series.collect()
-        };
-        let most = traced.iter().flat_map(|t| &t.points).map(|p| p.0).fold(0.0, f64::max);
-        let mut frequency = vec![Series::reference("local (ω = ck)", vec![(0.0, 0.0), (most, most)])];
-        frequency.extend(drawn(|_, wave| wave.omega));
-        let error = drawn(|k, wave| 100.0 * (wave.phase(k) - 1.0));
-        let top =
-            traced.iter().flat_map(|t| &t.points).filter_map(|p| p.1).map(|w| w.omega).fold(0.0, f64::max);
-        let local_fits = Axis::linear("ω/c (1/m)").range(0.0, 1.15 * top.max(f64::MIN_POSITIVE));
-        let panel = Lines::new(Axis::linear("wavenumber k (1/m)"), local_fits, frequency).titled("Frequency");
-        let errors =
-            Lines::new(Axis::linear("wavenumber k (1/m)"), Axis::linear("phase-speed error (%)"), error)
-                .titled("Error against the local continuum")
-                .guide(Guide::Horizontal { at: 0.0, label: String::new() });
-        Figure::new(place.case.clone(), self.title.clone(), self.title.clone(), panel)
-            .panel(errors)
-            .columns(2)
-    }
-}
-
-fn describe(curve: &Curve, name: String) -> Vec<Cell> {
-    let lattice = curve.lattice();
-    vec![
-        name.into(),
-        curve.body.dimension().into(),
-        curve.own_branch().name().into(),
-        (curve.body != Body::Bar).then_some(curve.degrees).into(),
-        curve.scheme().into(),
-        curve.kernel().map(|kernel| kernel.name()).into(),
-        curve.kernel().and_then(|kernel| kernel.p()).into(),
-        lattice.map(|lattice| lattice.m).into(),
-        curve.dx().into(),
-        curve.horizon().into(),
-        lattice.map(|lattice| lattice.volume_rule.name()).into(),
-        lattice.map(|lattice| lattice.calibrated).into(),
-        curve.courant.into(),
-    ]
 }
 
 /// |Δω|/|ω| in the continuum, |Δω|/(|ω| + |k ∂ω/∂k|) on a grid.

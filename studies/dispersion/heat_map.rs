@@ -30,7 +30,7 @@ pub struct HeatMapAsked {
 /// The case, checked.
 pub struct HeatMap {
     title: String,
-    k_dx: f64,
+    nodes_per_wavelength: f64,
     lattices: Vec<Lattice>,
 }
 
@@ -45,7 +45,7 @@ impl HeatMapAsked {
         for lattice in &lattices {
             check_m(Body::PlaneStress, lattice.m).map_err(|wrong| wrong.inside("lattice"))?;
         }
-        Ok(HeatMap { title: title.to_owned(), k_dx: TAU / self.nodes_per_wavelength.0, lattices })
+        Ok(HeatMap { title: title.to_owned(), nodes_per_wavelength: self.nodes_per_wavelength.0, lattices })
     }
 }
 
@@ -100,7 +100,7 @@ impl Question for HeatMap {
                 lattice.m.into(),
                 lattice.volume_rule.name().into(),
                 lattice.calibrated.into(),
-                self.k_dx.into(),
+                self.k_dx().into(),
                 mine.map(|error| 100.0 * error).into(),
             ]);
         }
@@ -111,6 +111,10 @@ impl Question for HeatMap {
 }
 
 impl HeatMap {
+    fn k_dx(&self) -> f64 {
+        TAU / self.nodes_per_wavelength
+    }
+
     /// Worst phase error by the code under judgement and by the reference; `None` where the lattice is unusable.
     fn cell(&self, subject: &dyn Subject, lattice: Lattice) -> (Option<f64>, Option<f64>) {
         if unusable(Body::PlaneStress, lattice).is_some() {
@@ -128,11 +132,12 @@ impl HeatMap {
                 })
             });
             largest(
-                curves.map(|curve| wave(&curve).map_or(f64::NAN, |wave| (wave.phase(self.k_dx) - 1.0).abs())),
+                curves
+                    .map(|curve| wave(&curve).map_or(f64::NAN, |wave| (wave.phase(self.k_dx()) - 1.0).abs())),
             )
         };
-        let mine = worst(&|curve| curve.prepare(subject).ok()?.wave(self.k_dx));
-        (mine, worst(&|curve| curve.reference(self.k_dx)))
+        let mine = worst(&|curve| curve.prepare(subject).ok()?.wave(self.k_dx()));
+        (mine, worst(&|curve| curve.reference(self.k_dx())))
     }
 
     /// One panel for each volume rule and calibration: kernels down, m across.
@@ -173,8 +178,8 @@ impl HeatMap {
         });
         let mut panels = panels.collect::<Vec<_>>().into_iter();
         let Some(first) = panels.next() else { return Vec::new() };
-        let title = format!("{}, {:.4} nodes per wavelength", self.title, TAU / self.k_dx);
+        let title = format!("{}, {} nodes per wavelength", self.title, self.nodes_per_wavelength);
         let figure = Figure::new(place.case.clone(), title, self.title.clone(), first);
-        vec![panels.fold(figure, Figure::panel).columns(2)]
+        vec![panels.fold(figure, Figure::panel)]
     }
 }

@@ -1,7 +1,8 @@
 //! `asks = "m_convergence"`: at fixed δ and k, the lattice's ω tends to the continuum's as m → ∞; at which order?
 
 use super::curve::reference_kernel;
-use super::sweep::{KernelName, VolumeRuleName, Wrong, check_m, kernels};
+use super::sweep::{Wrong, check_m, kernels};
+use super::words::{KernelName, VolumeRuleName};
 use crate::input::{OneOrMany, Positive};
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim};
 use crate::subject::Subject;

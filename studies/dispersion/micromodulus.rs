@@ -1,7 +1,8 @@
 //! `asks = "micromodulus"`: c(ξ) of each kernel over that of the constant one, and its constant from energy equivalence.
 
 use super::curve::reference_kernel;
-use super::sweep::{KernelName, Wrong, kernels};
+use super::sweep::{Wrong, kernels};
+use super::words::KernelName;
 use crate::input::{OneOrMany, Positive};
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;

@@ -5,8 +5,10 @@
 
 pub mod continuum_oracles;
 pub mod curve;
+mod curve_report;
 pub mod curves;
 pub mod heat_map;
+mod label;
 pub mod lattice_oracles;
 pub mod long_wave;
 pub mod m_convergence;
@@ -19,6 +21,8 @@ pub mod small_p;
 pub mod sweep;
 pub mod symmetry;
 pub mod time_step;
+mod wavenumbers;
+mod words;
 
 use crate::input::{Document, Refusal, nearest};
 use crate::question::Question;

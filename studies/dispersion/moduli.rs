@@ -1,7 +1,8 @@
 //! `asks = "moduli"`: the moduli a lattice really has, before and after calibration, and their anisotropy.
 
 use super::curve::reference_lattice;
-use super::sweep::{BodyName, LatticeSweep, Wrong, check_m, unusable};
+use super::sweep::{LatticeSweep, Wrong, check_m, unusable};
+use super::words::BodyName;
 use crate::input::OneOrMany;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
@@ -10,6 +11,7 @@ use pd_verify::compare::largest;
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::{Calibration, Lattice, Moduli as LatticeModuli};
 use pd_verify::material::Body;
+use pd_verify::partial_volume::VolumeRule;
 use pd_verify::report::plot::{Axis, Category, Dots, Figure};
 use pd_verify::table::{Cell, Table};
 use pd_verify_reference as reference;
@@ -118,7 +120,10 @@ calibration: bonds times α + β cos 4θ, α and β from C₁₁ and C₁₂ as 
             })
         };
         let refused = self.asked.len() - usable().count();
-        let note = format!("{} lattices, {refused} refused", self.asked.len() - refused);
+        let negative: usize = usable().map(|(_, _, found)| found.negative_bonds).sum();
+        let used = self.asked.len() - refused;
+        let note =
+            format!("{used} lattices, {refused} more refused by name, {negative} bonds with negative weight");
         let error = largest(usable().map(|(body, lattice, found)| error_of_moduli(body, lattice, found)));
         let wrong_sizes =
             usable().filter(|(body, lattice, found)| found.neighbours != exact_size(*body, *lattice)).count();
@@ -132,12 +137,8 @@ calibration: bonds times α + β cos 4θ, α and β from C₁₁ and C₁₂ as 
             ("families".into(), crate::question::value_of(Some(wrong_sizes as f64), Some(0.0), note.clone())),
             ("calibrated".into(), error_of(residual, note)),
         ];
-        let negative: usize = usable().map(|(_, _, found)| found.negative_bonds).sum();
-        Answer {
-            evidence,
-            tables: vec![self.table(&measured, place)],
-            figures: self.figure(&measured, place, negative),
-        }
+        let figures = self.figures(&measured, place);
+        Answer { evidence, tables: vec![self.table(&measured, place)], figures }
     }
 }
 
@@ -244,20 +245,14 @@ impl Moduli {
         table
     }
 
-    /// Lattice modulus over the intended one, uncalibrated, by kernel and m: a panel for each volume rule.
-    fn figure(&self, measured: &[Result<Measured, String>], place: &Place, negative: usize) -> Vec<Figure> {
-        let found: Vec<(Body, Lattice, LatticeModuli)> = self
-            .asked
-            .iter()
-            .zip(measured)
-            .filter_map(|(&(body, lattice), found)| {
-                found.as_ref().ok().map(|found| (body, lattice, found.before))
-            })
+    /// Lattice modulus over the intended one, weights as printed, by kernel and m: a figure for each volume rule.
+    fn figures(&self, measured: &[Result<Measured, String>], place: &Place) -> Vec<Figure> {
+        let found = self.asked.iter().zip(measured).filter(|((body, _), _)| *body != Body::Bar);
+        let found: Vec<(Lattice, LatticeModuli)> = found
+            .filter_map(|((_, lattice), found)| found.as_ref().ok().map(|found| (*lattice, found.before)))
             .collect();
-        let plane: Vec<_> = found.iter().filter(|(body, ..)| *body == Body::PlaneStress).collect();
-        let mut kernels: Vec<Kernel> = Vec::new();
-        let mut sizes: Vec<f64> = Vec::new();
-        for (_, lattice, _) in &plane {
+        let (mut kernels, mut sizes): (Vec<Kernel>, Vec<f64>) = (Vec::new(), Vec::new());
+        for (lattice, _) in &found {
             if !kernels.contains(&lattice.kernel) {
                 kernels.push(lattice.kernel);
             }
@@ -265,45 +260,50 @@ impl Moduli {
                 sizes.push(lattice.m);
             }
         }
-        sizes.truncate(6);
-        let groups: Vec<String> = sizes.iter().map(|m| format!("m = {m}")).collect();
-        let mut panels = Vec::new();
-        for rule in pd_verify::partial_volume::VolumeRule::ALL {
-            for (name, modulus) in MODULI {
-                let value = |kernel: Kernel, m: f64| {
-                    let mine = |l: &Lattice| l.kernel == kernel && l.m == m && l.volume_rule == rule;
-                    plane
-                        .iter()
-                        .find(|(_, lattice, _)| mine(lattice))
-                        .map_or(f64::NAN, |(.., moduli)| modulus(moduli))
-                };
-                let categories = kernels.iter().map(|&kernel| {
-                    Category::new(
-                        kernel.to_string(),
-                        sizes.iter().map(|&m| value(kernel, m)).collect::<Vec<_>>(),
-                    )
-                });
-                let panel = Dots::new(
-                    Axis::linear(format!("lattice {name} / intended")),
-                    groups.clone(),
-                    categories.collect(),
-                )
-                .titled(format!("{name}, volume rule {}", rule.name()))
-                .reference(1.0, "intended");
-                if plane.iter().any(|(_, lattice, _)| lattice.volume_rule == rule) {
-                    panels.push(panel);
-                }
-            }
-        }
-        let mut panels = panels.into_iter();
-        let Some(first) = panels.next() else { return Vec::new() };
-        let caption = format!(
-            "{}. Plane stress (plane strain has the same ratios), weights as printed. Bonds with negative weight after calibration: {negative}.",
-            self.title
-        );
-        let figure = Figure::new(place.case.clone(), self.title.clone(), caption, first);
-        vec![panels.fold(figure, Figure::panel).columns(2)]
+        // Whole m from 2 on fit one scale; a user's odd m are shown when there are no others.
+        let usual: Vec<f64> = sizes.iter().copied().filter(|m| *m >= 2.0 && m.fract() == 0.0).collect();
+        let sizes = if usual.is_empty() { sizes } else { usual };
+        let drawn = VolumeRule::ALL
+            .into_iter()
+            .filter(|rule| found.iter().any(|(lattice, _)| lattice.volume_rule == *rule));
+        let figure = |rule: VolumeRule| {
+            let panel = |(name, modulus)| chart(name, modulus, rule, &found, &kernels, &sizes);
+            let caption = format!(
+                "{}, weights as printed; plane stress and plane strain have the same ratios.",
+                self.title
+            );
+            let title = format!("{}: {} volumes", self.title, rule.name().replace('_', " "));
+            let id = format!("{}-{}", place.case, rule.name().replace('_', "-"));
+            Figure::new(id, title, caption, panel(MODULI[0])).panel(panel(MODULI[1])).columns(2)
+        };
+        drawn.map(figure).collect()
     }
+}
+
+/// One modulus by kernel, a dot for each m.
+fn chart(
+    name: &str,
+    modulus: fn(&LatticeModuli) -> f64,
+    rule: VolumeRule,
+    found: &[(Lattice, LatticeModuli)],
+    kernels: &[Kernel],
+    sizes: &[f64],
+) -> Dots {
+    let value = |kernel: Kernel, m: f64| {
+        let mine = |l: &Lattice| l.kernel == kernel && l.m == m && l.volume_rule == rule;
+        found.iter().find(|(lattice, _)| mine(lattice)).map_or(f64::NAN, |(_, moduli)| modulus(moduli))
+    };
+    let category = |&kernel: &Kernel| {
+        Category::new(kernel.to_string(), sizes.iter().map(|&m| value(kernel, m)).collect::<Vec<_>>())
+    };
+    let groups = sizes.iter().map(|m| format!("m = {m}")).collect();
+    Dots::new(
+        Axis::linear(format!("lattice {name} / intended")),
+        groups,
+        kernels.iter().map(category).collect(),
+    )
+    .titled(name)
+    .reference(1.0, "intended")
 }
 
 const MODULI: [(&str, fn(&LatticeModuli) -> f64); 2] =

@@ -1,6 +1,7 @@
 //! `asks = "polar"`: phase-speed error over the direction of travel, P and S, at a given number of nodes per wave.
 
-use super::curve::{Curve, Medium, labels};
+use super::curve::{Curve, Medium};
+use super::label::labels;
 use super::sweep::{LatticeSweep, Wrong};
 use super::symmetry::all_usable;
 use crate::input::Positive;
@@ -31,7 +32,7 @@ pub struct PolarAsked {
 /// The case, checked.
 pub struct Polar {
     title: String,
-    k_dx: f64,
+    nodes_per_wavelength: f64,
     media: Vec<Medium>,
 }
 
@@ -49,7 +50,7 @@ impl PolarAsked {
         if self.finite_differences == Some(true) {
             media.push(Medium::FiniteDifferences { dx: 1.0 });
         }
-        Ok(Polar { title: title.to_owned(), k_dx: TAU / self.nodes_per_wavelength.0, media })
+        Ok(Polar { title: title.to_owned(), nodes_per_wavelength: self.nodes_per_wavelength.0, media })
     }
 }
 
@@ -100,7 +101,7 @@ impl Question for Polar {
                     place.case.clone().into(),
                     branch.name().into(),
                     name.clone().into(),
-                    self.k_dx.into(),
+                    self.k_dx().into(),
                     degrees.into(),
                     error.into(),
                 ]);
@@ -109,7 +110,7 @@ impl Question for Polar {
         }
         let [p, s] = panels;
         let radial = || Axis::linear("phase-speed error (%)").including(0.0);
-        let title = format!("{}, {:.4} nodes per wavelength", self.title, TAU / self.k_dx);
+        let title = format!("{}, {} nodes per wavelength", self.title, self.nodes_per_wavelength);
         let figure = Figure::new(
             place.case.clone(),
             title,
@@ -125,17 +126,22 @@ impl Question for Polar {
 }
 
 impl Polar {
+    fn k_dx(&self) -> f64 {
+        TAU / self.nodes_per_wavelength
+    }
+
     /// Phase error in percent by direction, and the largest difference of the phase speed from the reference's.
     fn trace(&self, subject: &dyn Subject, branch: Branch, medium: Medium) -> (Vec<(f64, f64)>, f64) {
         let speed = |degrees: f64| {
             let prepared = curve(medium, branch, degrees).prepare(subject).ok()?;
-            prepared.wave(self.k_dx).map(|wave| wave.phase(self.k_dx))
+            prepared.wave(self.k_dx()).map(|wave| wave.phase(self.k_dx()))
         };
         let points = (0..=360 / STEP)
             .map(|n| f64::from(n * STEP))
             .map(|degrees| (degrees, speed(degrees).map_or(f64::NAN, |speed| 100.0 * (speed - 1.0))));
         let differences = (0..24).map(|n| 15.0 * f64::from(n)).map(|degrees| {
-            let exact = curve(medium, branch, degrees).reference(self.k_dx).map(|wave| wave.phase(self.k_dx));
+            let exact =
+                curve(medium, branch, degrees).reference(self.k_dx()).map(|wave| wave.phase(self.k_dx()));
             speed(degrees).zip(exact).map_or(f64::NAN, |(mine, exact)| (mine - exact).abs())
         });
         (points.collect(), largest(differences).unwrap_or(f64::NAN))

@@ -139,7 +139,7 @@ exactly: nodes n < 0 obey one stencil, n ≥ 0 the other; each side carries its 
                 row.extend(answers.map(Into::into));
                 table.rows.push(row);
                 for (curve, answer) in curves.iter_mut().zip(answers) {
-                    curve.push((k, answer.unwrap_or(f64::NAN)));
+                    curve.extend(answer.map(|r| (k, r)));
                 }
             }
             errors.extend(JUDGED.iter().filter_map(|&k| compare(lattice, &left, k, exact(k))));
@@ -170,7 +170,7 @@ fn panel(lattice: Lattice, [equal_k, equal_omega, exact]: [Vec<(f64, f64)>; 3]) 
         Series::line("impedances, equal k (published)", equal_k).dash(Dash::Dotted),
     ];
     Lines::new(Axis::linear("kΔx of the incident wave"), Axis::linear("|R|").range(0.0, 1.05), series)
-        .titled(format!("finite differences | {lattice}"))
+        .titled(lattice.to_string())
 }
 
 fn known_answers(subject: &dyn Subject) -> Vec<(String, Evidence)> {

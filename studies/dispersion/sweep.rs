@@ -1,12 +1,12 @@
 //! Sweeps in study files: lists of parameters whose every combination is a curve or a lattice.
 
 use super::curve::{Curve, Medium};
+use super::words::{BranchName, KernelName, SchemeName, VolumeRuleName};
 use crate::input::{OneOrMany, Positive, one_or_many};
 use pd_verify::dispersion::Branch;
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::{Lattice, Stencil, Unusable};
 use pd_verify::material::{Body, Material};
-use pd_verify::partial_volume::VolumeRule;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -27,82 +27,6 @@ impl Wrong {
     pub fn inside(self, outer: &str) -> Self {
         Self { key: format!("{outer}.{}", self.key), ..self }
     }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum BodyName {
-    Bar,
-    PlaneStress,
-    PlaneStrain,
-}
-
-impl From<BodyName> for Body {
-    fn from(name: BodyName) -> Self {
-        match name {
-            BodyName::Bar => Self::Bar,
-            BodyName::PlaneStress => Self::PlaneStress,
-            BodyName::PlaneStrain => Self::PlaneStrain,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum KernelName {
-    Constant,
-    Gaussian,
-    Exponential,
-    Conical,
-    Parabolic,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum VolumeRuleName {
-    Full,
-    Linear,
-    ExactArea,
-}
-
-impl From<VolumeRuleName> for VolumeRule {
-    fn from(name: VolumeRuleName) -> Self {
-        match name {
-            VolumeRuleName::Full => Self::Full,
-            VolumeRuleName::Linear => Self::Linear,
-            VolumeRuleName::ExactArea => Self::ExactArea,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SchemeName {
-    Continuum,
-    Lattice,
-    LatticeLeapfrog,
-    Fd,
-    FdLeapfrog,
-}
-
-impl SchemeName {
-    fn peridynamic(self) -> bool {
-        !matches!(self, Self::Fd | Self::FdLeapfrog)
-    }
-
-    fn lattice(self) -> bool {
-        matches!(self, Self::Lattice | Self::LatticeLeapfrog)
-    }
-
-    fn leapfrog(self) -> bool {
-        matches!(self, Self::LatticeLeapfrog | Self::FdLeapfrog)
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-pub enum BranchName {
-    P,
-    S,
 }
 
 /// Every combination of these is a lattice. `p` goes with `gaussian` and `exponential`.

@@ -1,6 +1,7 @@
 //! `asks = "symmetry"`: lattices are periodic in the Brillouin zone, even, and have the symmetry of the square.
 
-use super::sweep::{BodyName, LatticeSweep, Wrong, check_m, unusable};
+use super::sweep::{LatticeSweep, Wrong, check_m, unusable};
+use super::words::BodyName;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
 use crate::subject::Subject;
 use pd_verify::claim::{Basis, Claim, ErrorKind};

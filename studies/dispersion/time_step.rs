@@ -1,8 +1,9 @@
 //! `asks = "time_step"`: the sharp limit of leapfrog, 2/ω_max, beside the usual row-sum bound.
 
 use super::curve::reference_lattice;
-use super::sweep::{BodyName, LatticeSweep, Wrong};
+use super::sweep::{LatticeSweep, Wrong};
 use super::symmetry::all_usable;
+use super::words::BodyName;
 use crate::input::OneOrMany;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
 use crate::subject::Subject;

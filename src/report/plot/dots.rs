@@ -100,7 +100,7 @@ impl Dots {
         width: f64,
     ) -> Result<(f64, LeftOut), PlotError> {
         let range = self.range()?;
-        let most = 0.34 * width;
+        let most = 0.4 * width;
         let room = text::widest(self.categories.iter().map(|c| c.label.as_str()), frame::SIZE).min(most);
         let ticks = frame::level_ticks(&self.value, range, width - room - 36.0);
         let right = left + width - (0.5 * ticks.widest(frame::SIZE) + 2.0).max(12.0);

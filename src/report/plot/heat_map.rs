@@ -97,7 +97,7 @@ impl HeatMap {
         self.check()?;
         let (lo, hi) = self.range()?;
         let title = frame::paragraph(canvas, &self.title, left + 0.5 * width, top, width, true);
-        let name_room = text::widest(self.y.iter().map(String::as_str), frame::SIZE).min(0.3 * width);
+        let name_room = text::widest(self.y.iter().map(String::as_str), frame::SIZE).min(0.36 * width);
         let grid_left = left + name_room + 10.0 + if self.y_label.is_empty() { 0.0 } else { frame::LINE };
         // Right of the cells: a gap, the bar, its tick labels and its label.
         let bar_room = 16.0 + BAR + 9.0 + 52.0 + frame::LINE;
