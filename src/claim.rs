@@ -35,15 +35,25 @@ impl Relation {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ErrorKind {
+    /// |computed − reference|, in the unit of the quantity.
     Absolute,
+    /// |computed − reference|/|reference|.
     Relative,
+    /// Root mean square over the largest |reference|.
     RmsOfPeak,
+    /// Largest error over the largest |reference|.
     MaxOfPeak,
+    /// ‖error‖₁/‖reference‖₁.
     L1Relative,
+    /// ‖error‖₂/‖reference‖₂.
     L2Relative,
+    /// Largest error over a scale of the reference that the quantity names.
     LinfRelative,
+    /// Observed minus expected order of convergence.
     Order,
+    /// A number of things.
     Count,
+    /// Bits that differ.
     Bits,
 }
 
@@ -69,10 +79,15 @@ impl ErrorKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Basis {
+    /// Follows from the mathematics of the method.
     Theory,
+    /// What floating-point arithmetic leaves.
     Rounding,
+    /// What a publication reports.
     Literature,
+    /// At most twice what was measured; never a case's only claim.
     Measured,
+    /// What a user can live with.
     Engineering,
 }
 

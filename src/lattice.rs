@@ -31,7 +31,9 @@ impl std::fmt::Display for Lattice {
 /// Lattice moduli over intended ones. In a bar only C₁₁ (= E) means something; C₁₂ = C₆₆ by central forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moduli {
+    /// C₁₁ over the intended one.
     pub c11: f64,
+    /// C₁₂ = C₆₆ over the intended one; 0 in a bar.
     pub c12: f64,
 }
 
@@ -52,10 +54,13 @@ pub struct Calibration {
 /// A lattice that no computation should be run with.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unusable {
+    /// m < 1 or NaN.
     #[error("m = {m} is below 1: the horizon does not reach the nearest node")]
     HorizonBelowSpacing { m: f64 },
+    /// C₆₆ = 0.
     #[error("{lattice} has no shear stiffness: all its bonds lie along the axes, so C66 = 0")]
     NoShear { lattice: Lattice },
+    /// A modulus below rounding of the intended one.
     #[error(
         "{lattice} has lost its weights: of the intended modulus {modulus} the lattice keeps {kept:e}, less than rounding"
     )]
@@ -80,6 +85,7 @@ impl Unusable {
 /// One pair of bonds ±ξ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bond<const D: usize> {
+    /// ξ/Δx.
     pub offset: [i32; D],
     /// w Δx²/C₁₁.
     pub weight: f64,
@@ -88,6 +94,7 @@ pub struct Bond<const D: usize> {
 /// The weights of a lattice, ready to use.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stencil<const D: usize> {
+    /// One of each pair ±ξ, by row, then along x.
     pub bonds: Vec<Bond<D>>,
     /// Moduli of the weights as printed.
     pub before: Moduli,

@@ -1,4 +1,56 @@
-//! Peridynamics, verified.
+//! Peridynamics, verified: what its waves and lattices do, computed so that it can be held against exact answers.
+//!
+//! # The model
+//! Points within a horizon δ of each other pull on one another. Linearised and bond-based, per unit volume,
+//!
+//! ρ ü(x) = ∫ c(ξ) (ξ⊗ξ/|ξ|³) (u(x + ξ) − u(x)) dV + b,  c(ξ) = c₀ W(|ξ|/δ)
+//!
+//! (Silling 2000, J. Mech. Phys. Solids 48, 175). On a lattice of spacing Δx the integral is a sum over the bonds of a
+//! family, each with the counted fraction β of its cell: weight w = c V β/|ξ|.
+//!
+//! | symbol | meaning | unit | where |
+//! |---|---|---|---|
+//! | ρ, E | density, Young's modulus | kg/m³, Pa | [`material`] |
+//! | δ, Δx, m = δ/Δx | horizon, spacing, their ratio | m, m, 1 | [`lattice`] |
+//! | W(s), p | kernel over s = \|ξ\|/δ and its narrowness | 1 | [`kernel`] |
+//! | c₀ | micromodulus constant | N/m⁶ | [`micromodulus`] |
+//! | β | counted fraction of a neighbour's cell | 1 | [`partial_volume`] |
+//! | w | stiffness of a pair of bonds ±ξ, over C₁₁/Δx² | 1 | [`lattice`] |
+//! | α, β (of α + β cos 4θ) | calibration of the lattice | 1 | [`lattice`] |
+//! | k, ω | wavenumber, angular frequency | 1/m, 1/s | [`dispersion`] |
+//! | v, c_d, c_s | speed of waves in a bar, dilatational, shear | m/s | [`material`] |
+//!
+//! All quantities are SI; dispersion is computed in units of the spacing (or the horizon) and the wave's own speed.
+//!
+//! # A bar in twenty lines
+//! How much too slow is a wave of ten nodes, and how large may the time step be?
+//! ```
+//! use pd_verify::dispersion::{bar::BarDispersion, leapfrog, timestep};
+//! use pd_verify::kernel::Kernel;
+//! use pd_verify::lattice::{Lattice, Stencil};
+//! use pd_verify::partial_volume::VolumeRule;
+//!
+//! let lattice = Lattice {
+//!     kernel: Kernel::Gaussian { p: 2.0 },
+//!     m: 3.0,
+//!     volume_rule: VolumeRule::Linear,
+//!     calibrated: true,
+//! };
+//! let stencil = Stencil::<1>::new(lattice)?;
+//! let limit = timestep::bar(&stencil).sharp; // vΔt/Δx
+//! let theta = 2.0 * std::f64::consts::PI / 10.0; // kΔx
+//! let wave = BarDispersion::new(&stencil).wave(theta);
+//! let marched = leapfrog::wave(wave, 0.9 * limit, None).expect("below the limit");
+//! println!("phase speed / v = {:.4} in exact time, {:.4} by leapfrog", wave.phase(theta), marched.phase(theta));
+//! assert!((wave.phase(theta) - 0.9645).abs() < 1e-4);
+//! # Ok::<(), pd_verify::lattice::Unusable>(())
+//! ```
+//!
+//! # Judging
+//! A [`claim`] states a quantity, a bound and the reason for the bound before anything is computed; [`verdict`] holds
+//! evidence against it; [`report`] turns the result into tables, figures and pages. Exact answers live in a crate of
+//! their own, `pd-verify-reference`, which cannot see this one, and which this one does not use.
+
 pub mod claim;
 pub mod compare;
 pub mod dispersion;

@@ -57,6 +57,11 @@ pub trait Subject: Sync {
         relation.wave(k_dx, degrees, branch)
     }
 
+    /// (ωΔx/v)² of a bar's lattice at kΔx.
+    fn bar_square(&self, relation: &BarDispersion, k_dx: f64) -> f64 {
+        relation.square(k_dx)
+    }
+
     /// The larger and the smaller (ωΔx/c_d)² of a plate's lattice at the vector kΔx.
     fn plane_squares(&self, relation: &PlaneDispersion, k_dx: [f64; 2]) -> [f64; 2] {
         relation.matrix(k_dx).eigen().0
@@ -70,9 +75,9 @@ pub trait Subject: Sync {
         }
     }
 
-    /// A wave of the plate by finite differences, in exact time.
-    fn finite_differences_plane(&self, k_dx: f64, degrees: f64, branch: Branch) -> Wave {
-        finite_differences::plane(k_dx, degrees, branch, finite_differences::QUARTER)
+    /// A wave of the plate by finite differences, in exact time; `mixed` is the factor of the mixed derivative.
+    fn finite_differences_plane(&self, k_dx: f64, degrees: f64, branch: Branch, mixed: f64) -> Wave {
+        finite_differences::plane(k_dx, degrees, branch, mixed)
     }
 
     /// What leapfrog makes of a wave at cΔt/Δx.
@@ -88,6 +93,11 @@ pub trait Subject: Sync {
     /// Time-step limits of a plate.
     fn plane_time_step(&self, stencil: &Stencil<2>) -> TimeStep {
         timestep::plane(stencil)
+    }
+
+    /// The published coefficient of a joint: impedances at equal k.
+    fn published_reflection(&self, left: &Chain, right: &Chain, theta: f64) -> f64 {
+        joint::impedances_at_equal_wavenumber(left, right, theta)
     }
 
     /// What a joint sends back of the left chain's wave.

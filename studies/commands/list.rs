@@ -17,6 +17,8 @@ pub fn list(as_json: bool) -> Result<String, Refusal> {
     for study in &studies {
         let claims: usize = study.cases.iter().map(|case| case.claims().len()).sum();
         text += &format!("{}\n  {}\n", study.id, study.title);
+        let claim = study.about.split("\n\n").next().unwrap_or_default();
+        text += &format!("{}\n", textwrap::indent(&textwrap::fill(claim, 96), "    "));
         text += &format!("  source: {}\n", study.source);
         text += &format!("  {} cases, {claims} claims, {}\n", study.cases.len(), cost(study));
         for case in &study.cases {

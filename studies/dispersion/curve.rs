@@ -2,6 +2,7 @@
 
 use crate::subject::Subject;
 use pd_verify::dispersion::bar::BarDispersion;
+use pd_verify::dispersion::finite_differences::QUARTER;
 use pd_verify::dispersion::plane::{PlaneDispersion, direction, speed_ratio_squared};
 use pd_verify::dispersion::{Branch, Wave};
 use pd_verify::kernel::Kernel;
@@ -183,7 +184,7 @@ impl Prepared<'_> {
             (Relation::None, _) if bar => {
                 return subject.finite_differences_bar(x, curve.courant).map(|wave| self.dimensional(wave));
             }
-            (Relation::None, _) => subject.finite_differences_plane(x, degrees, branch),
+            (Relation::None, _) => subject.finite_differences_plane(x, degrees, branch, QUARTER),
         };
         match curve.own_courant() {
             Some(courant) => subject.leapfrog(space, courant).map(|wave| self.dimensional(wave)),

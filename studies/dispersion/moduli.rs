@@ -283,7 +283,7 @@ impl Moduli {
 /// One modulus by kernel, a dot for each m.
 fn chart(
     name: &str,
-    modulus: fn(&LatticeModuli) -> f64,
+    modulus: Reader,
     rule: VolumeRule,
     found: &[(Lattice, LatticeModuli)],
     kernels: &[Kernel],
@@ -306,8 +306,10 @@ fn chart(
     .reference(1.0, "intended")
 }
 
-const MODULI: [(&str, fn(&LatticeModuli) -> f64); 2] =
-    [("C11", |moduli| moduli.c11), ("C66", |moduli| moduli.c12)];
+/// How to read one modulus of a lattice.
+type Reader = fn(&LatticeModuli) -> f64;
+
+const MODULI: [(&str, Reader); 2] = [("C11", |moduli| moduli.c11), ("C66", |moduli| moduli.c12)];
 
 fn cells(body: Body, found: &Measured) -> Vec<Cell> {
     let plane = body != Body::Bar;

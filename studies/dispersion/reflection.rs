@@ -9,9 +9,7 @@ use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of
 use crate::subject::Subject;
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
-use pd_verify::dispersion::joint::{
-    Chain, cut_off, impedances_at_equal_frequency, impedances_at_equal_wavenumber,
-};
+use pd_verify::dispersion::joint::{Chain, cut_off, impedances_at_equal_frequency};
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::{Lattice, Stencil};
 use pd_verify::material::Body;
@@ -123,7 +121,7 @@ exactly: nodes n < 0 obey one stencil, n ≥ 0 the other; each side carries its 
             let mut curves = [Vec::new(), Vec::new(), Vec::new()];
             for k in (1..POINTS).map(|n| PI * f64::from(n) / f64::from(POINTS)) {
                 let answers = [
-                    Some(impedances_at_equal_wavenumber(&left, &right, k).abs()),
+                    Some(subject.published_reflection(&left, &right, k).abs()),
                     impedances_at_equal_frequency(&left, &right, k).map(f64::abs),
                     exact(k),
                 ];

@@ -114,7 +114,7 @@ impl Symmetry {
     fn look(&self, subject: &dyn Subject, lattice: Lattice) -> Option<Found> {
         if self.body == Body::Bar {
             let relation = BarDispersion::new(&subject.bar_stencil(lattice).ok()?);
-            Some(look_at_bar(|theta| subject.bar_wave(&relation, theta).omega))
+            Some(look_at_bar(|theta| subject.bar_square(&relation, theta)))
         } else {
             let relation = PlaneDispersion::new(&subject.plane_stencil(lattice).ok()?);
             Some(look_at_plane(|theta| subject.plane_squares(&relation, theta)))
@@ -122,18 +122,21 @@ impl Symmetry {
     }
 }
 
-fn look_at_bar(omega: impl Fn(f64) -> f64) -> Found {
+fn look_at_bar(square: impl Fn(f64) -> f64) -> Found {
     let mut found = Found::default();
     let thetas: Vec<f64> = (0..=GRID).map(|n| PI * f64::from(n) / f64::from(GRID)).collect();
-    let squares: Vec<f64> = thetas.iter().map(|&theta| omega(theta).powi(2)).collect();
-    let top = squares.iter().fold(0.0, |a: f64, &b| a.max(b));
-    for (&theta, &square) in thetas.iter().zip(&squares) {
-        found.growing += usize::from(square.is_nan() || square < 0.0);
-        found.periodic = worse(found.periodic, (omega(theta + TAU).powi(2) - square).abs() / top);
-        found.even = worse(found.even, (omega(-theta).powi(2) - square).abs() / top);
+    let squares: Vec<f64> = thetas.iter().map(|&theta| square(theta)).collect();
+    let top = squares.iter().fold(0.0, |most: f64, &value| most.max(value));
+    for (&theta, &value) in thetas.iter().zip(&squares) {
+        found.growing += usize::from(value.is_nan() || value < ROUNDED_ZERO * top);
+        found.periodic = worse(found.periodic, (square(theta + TAU) - value).abs() / top);
+        found.even = worse(found.even, (square(-theta) - value).abs() / top);
     }
     found
 }
+
+/// ω² at k = 0 may come out this far below zero, over the largest ω².
+const ROUNDED_ZERO: f64 = -1e-14;
 
 fn look_at_plane(squares: impl Fn([f64; 2]) -> [f64; 2]) -> Found {
     let mut found = Found::default();
@@ -147,8 +150,8 @@ fn look_at_plane(squares: impl Fn([f64; 2]) -> [f64; 2]) -> Found {
         (0..2).map(|n| (moved[n] - value[n]).abs() / top).fold(0.0, worse)
     };
     for (&[x, y], &value) in points.iter().zip(&values) {
-        let below = -1e-14 * top;
-        found.growing += value.iter().filter(|square| square.is_nan() || **square < below).count();
+        found.growing +=
+            value.iter().filter(|square| square.is_nan() || **square < ROUNDED_ZERO * top).count();
         found.periodic = worse(found.periodic, change([x + TAU, y], value));
         found.periodic = worse(found.periodic, change([x, y - TAU], value));
         found.even = worse(found.even, change([-x, -y], value));

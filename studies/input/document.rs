@@ -191,35 +191,49 @@ impl Document {
         place.start..place.start + length
     }
 
-    /// Turns serde's words into a message with place, cause and cure.
+    /// Turns serde's words into a message with place, cause and cure; `common` keys stand in the table itself.
     fn explain(&self, at: &str, table: &str, words: &str, common: &[&str]) -> Refusal {
         let quoted: Vec<&str> = words.split('`').skip(1).step_by(2).collect();
-        let unknown_key = words.starts_with("unknown field");
-        if !unknown_key && !words.starts_with("unknown variant") {
-            let subject = if at.is_empty() { self.name.as_str() } else { at };
-            return self.refuse(at, format!("{subject}: {words}"));
+        match (words.split(' ').next(), words.split(' ').nth(1), quoted.split_first()) {
+            (Some("unknown"), Some("field"), Some((wrong, allowed))) => {
+                let owner = at.strip_suffix(wrong).map_or(at, |owner| owner.trim_end_matches('.'));
+                let own: &[&str] = if owner == table { common } else { &[] };
+                let allowed: Vec<&str> = allowed.iter().chain(own).copied().collect();
+                let place = join(if owner.is_empty() { table } else { owner }, wrong);
+                self.refuse(&place, format!("unknown key `{wrong}`")).help(did_you_mean(wrong, &allowed))
+            }
+            (Some("unknown"), Some("variant"), Some((wrong, allowed))) => {
+                let message = format!("{at}: `{wrong}` is not one of the words known here");
+                self.refuse(at, message).help(did_you_mean(wrong, allowed))
+            }
+            (Some("missing"), _, Some((missing, _))) => {
+                let owner = if at.is_empty() { self.name.as_str() } else { at };
+                let help = match nearest(missing, self.keys(at)) {
+                    Some(near) => format!("did you mean `{missing}` by `{near}`?"),
+                    None => format!("add `{missing}`; see `pd-verify schema` for all keys"),
+                };
+                self.refuse(at, format!("{owner}: the key `{missing}` is missing")).help(help)
+            }
+            _ => {
+                let subject = if at.is_empty() { self.name.as_str() } else { at };
+                self.refuse(at, format!("{subject}: {words}"))
+            }
         }
-        let Some((wrong, allowed)) = quoted.split_first() else {
-            return self.refuse(at, words.to_owned());
-        };
-        let allowed: Vec<&str> =
-            if unknown_key { allowed.iter().chain(common).copied().collect() } else { allowed.to_vec() };
-        let (message, place) = if unknown_key {
-            let owner = if at.ends_with(wrong) {
-                at.to_owned()
-            } else {
-                join(if at.is_empty() { table } else { at }, wrong)
-            };
-            (format!("unknown key `{wrong}`"), owner)
-        } else {
-            (format!("{at}: `{wrong}` is not one of the words known here"), at.to_owned())
-        };
-        let listed = format!("allowed: {}", allowed.join(", "));
-        let help = match nearest(wrong, allowed) {
-            Some(word) => format!("did you mean `{word}`? {listed}"),
-            None => listed,
-        };
-        self.refuse(&place, message).help(help)
+    }
+
+    /// Keys written directly in a table.
+    fn keys(&self, table: &str) -> impl Iterator<Item = &str> {
+        let start = if table.is_empty() { String::new() } else { format!("{table}.") };
+        let inside = self.places.keys().filter_map(move |path| path.strip_prefix(start.as_str()));
+        inside.filter(|key| !key.contains(['.', '[']))
+    }
+}
+
+fn did_you_mean(wrong: &str, allowed: &[&str]) -> String {
+    let listed = format!("allowed: {}", allowed.join(", "));
+    match nearest(wrong, allowed.iter().copied()) {
+        Some(word) => format!("did you mean `{word}`? {listed}"),
+        None => listed,
     }
 }
 

@@ -6,11 +6,12 @@ use std::ops::Range;
 
 /// Bad input. Ends the program with code 2 before anything is computed or written.
 #[derive(Debug)]
-pub struct Refusal {
+pub struct Refusal(Box<Details>);
+
+#[derive(Debug)]
+struct Details {
     message: String,
     help: Option<String>,
-    /// What the place is about, under the marked text.
-    label: String,
     place: Option<Range<usize>>,
     source: Option<NamedSource<String>>,
 }
@@ -18,26 +19,26 @@ pub struct Refusal {
 impl Refusal {
     /// A refusal without a place in a file.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), help: None, label: "here".into(), place: None, source: None }
+        Self(Box::new(Details { message: message.into(), help: None, place: None, source: None }))
     }
 
     /// Adds what to do about it.
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.0.help = Some(help.into());
         self
     }
 
     /// Marks the place in the named text.
     pub fn at(mut self, name: &str, text: &str, place: Option<Range<usize>>) -> Self {
-        self.source = Some(NamedSource::new(name, text.to_owned()));
-        self.place = place;
+        self.0.source = Some(NamedSource::new(name, text.to_owned()));
+        self.0.place = place;
         self
     }
 }
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
+        f.write_str(&self.0.message)
     }
 }
 
@@ -45,16 +46,16 @@ impl std::error::Error for Refusal {}
 
 impl Diagnostic for Refusal {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+        self.0.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.source.as_ref().map(|source| source as &dyn SourceCode)
+        self.0.source.as_ref().map(|source| source as &dyn SourceCode)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let place = self.place.clone()?;
-        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(self.label.clone()), place))))
+        let place = self.0.place.clone()?;
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some("here".to_owned()), place))))
     }
 }
 
