@@ -1,6 +1,7 @@
 //! Rows of a data file: typed cells in, CSV text out; an unknown number is an empty cell, never a zero.
 
 use crate::report::csv_number;
+use std::sync::Arc;
 
 /// One cell.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,18 +68,47 @@ impl Cell {
     }
 }
 
+/// One row: cells that a whole block of rows has in common, then its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    shared: Arc<[Cell]>,
+    own: Vec<Cell>,
+}
+
+impl Row {
+    /// A row of a block; the shared cells come first.
+    pub fn of_block(shared: &Arc<[Cell]>, own: Vec<Cell>) -> Self {
+        Self { shared: Arc::clone(shared), own }
+    }
+
+    fn cells(&self) -> impl Iterator<Item = &Cell> {
+        self.shared.iter().chain(&self.own)
+    }
+}
+
+impl From<Vec<Cell>> for Row {
+    fn from(own: Vec<Cell>) -> Self {
+        Self { shared: Arc::new([]), own }
+    }
+}
+
 /// A data file: its name without folder, its columns, its rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     pub file: String,
     pub columns: Vec<&'static str>,
-    pub rows: Vec<Vec<Cell>>,
+    pub rows: Vec<Row>,
 }
 
 impl Table {
     /// A table without rows.
     pub fn new(file: impl Into<String>, columns: &[&'static str]) -> Self {
         Self { file: file.into(), columns: columns.to_vec(), rows: Vec::new() }
+    }
+
+    /// Adds a row.
+    pub fn push(&mut self, row: impl Into<Row>) {
+        self.rows.push(row.into());
     }
 
     /// The bytes of the file, header first, lines ending in `\n`.
@@ -89,8 +119,9 @@ impl Table {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(&self.columns).expect("writing to memory");
         for row in &self.rows {
-            assert_eq!(row.len(), self.columns.len(), "a row of {} does not fit its columns", self.file);
-            writer.write_record(row.iter().map(Cell::text)).expect("writing to memory");
+            let width = row.shared.len() + row.own.len();
+            assert_eq!(width, self.columns.len(), "a row of {} does not fit its columns", self.file);
+            writer.write_record(row.cells().map(Cell::text)).expect("writing to memory");
         }
         let bytes = writer.into_inner().expect("writing to memory");
         String::from_utf8(bytes).expect("cells are text")
@@ -104,7 +135,7 @@ mod tests {
     #[test]
     fn cells_are_written_plainly_and_unknown_is_empty() {
         let mut table = Table::new("x.csv", &["a", "b", "c", "d", "e"]);
-        table.rows.push(vec![0.1.into(), f64::NAN.into(), "x, y".into(), true.into(), None::<f64>.into()]);
+        table.push(vec![0.1.into(), f64::NAN.into(), "x, y".into(), true.into(), None::<f64>.into()]);
         assert_eq!(table.csv(), "a,b,c,d,e\n0.1,,\"x, y\",true,\n");
     }
 }

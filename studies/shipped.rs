@@ -36,3 +36,36 @@ pub fn refuse_unused(settings: &[Setting], used: &[bool]) -> Result<(), Refusal>
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shipped_studies_share_a_folder_without_overwriting_each_other() {
+        let studies = shipped(None, &[]).unwrap();
+        let mut ids: Vec<_> =
+            studies.iter().flat_map(|study| study.cases.iter().map(|case| case.place.case.clone())).collect();
+        let mut claims: Vec<_> = studies
+            .iter()
+            .flat_map(|study| study.cases.iter().flat_map(|case| case.claims()))
+            .map(|claim| claim.id)
+            .collect();
+        for list in [&mut ids, &mut claims] {
+            let count = list.len();
+            list.sort();
+            list.dedup();
+            assert_eq!(list.len(), count);
+        }
+        assert!(ids.len() > 25 && claims.len() > 100);
+    }
+
+    #[test]
+    fn every_claim_gives_its_reason_and_its_reference() {
+        let studies = shipped(None, &[]).unwrap();
+        for claim in studies.iter().flat_map(|study| &study.cases).flat_map(|case| case.claims()) {
+            assert!(claim.because.len() > 15 && claim.source.len() > 10, "{}", claim.id);
+            assert!(!claim.tolerance.is_nan(), "{}", claim.id);
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! A study: a question with a file. Its header, its cases, and the checks that need no computation.
 
-use crate::dispersion::{COMMON_KEYS, Written, read_case};
+use crate::dispersion::{COMMON_KEYS, TABLES, Written, read_case};
 use crate::input::{Document, Positive, Refusal, Setting};
 use crate::question::{Effort, Place, Profile, Question};
 use pd_verify::claim::Claim;
@@ -141,6 +141,14 @@ fn check_id(document: &Document, path: &str, id: &str) -> Result<(), Refusal> {
     Err(document.refuse(path, message).help("use lower-case letters, digits, - and _, at most 80"))
 }
 
+/// A case's figure is called like the case; it must not take the place of a table.
+fn check_figure_name(document: &Document, path: &str, id: &str, asks: &str) -> Result<(), Refusal> {
+    if !TABLES.contains(&id) || asks == id {
+        return Ok(());
+    }
+    Err(document.refuse(path, format!("\"{id}\" is the name of a table")).help("give the case another id"))
+}
+
 fn check_poisson_ratio(document: &Document, material: Option<&MaterialAsked>) -> Result<(), Refusal> {
     let Some(ratio) = material.and_then(|material| material.poisson_ratio) else { return Ok(()) };
     if [1.0 / 3.0, 0.25].iter().any(|fixed| (ratio - fixed).abs() < 1e-3) {
@@ -194,6 +202,7 @@ fn read_one(
     }
     let header: CaseHeader = document.read(&path, &common, &[])?;
     check_id(document, &format!("{path}.id"), &header.id)?;
+    check_figure_name(document, &format!("{path}.id"), &header.id, &header.asks)?;
     let title = header.title.unwrap_or_else(|| header.id.clone());
     let question = read_case(&header.asks, &Written { document, path, value, title: &title, material })?;
     let place = Place { study: study.to_owned(), case: header.id };

@@ -20,6 +20,8 @@ pub struct BarDispersion {
     alternating: Vec<f64>,
     /// 4 Σ w_j over odd j: (ωΔx/v)² at the edge of the Brillouin zone.
     edge: f64,
+    /// Long-wave speed over v.
+    long_wave: f64,
 }
 
 /// Wavenumbers evaluated side by side, so that the recurrence fills SIMD lanes.
@@ -35,7 +37,8 @@ impl BarDispersion {
         let alternating: Vec<_> =
             weights.iter().enumerate().map(|(n, &w)| if n % 2 == 0 { -w } else { w }).collect();
         let edge = 4.0 * weights.iter().step_by(2).sum::<f64>();
-        Self { weights, alternating, edge }
+        let long_wave = weights.iter().zip(1..).map(|(w, j)| w * f64::from(j * j)).sum::<f64>().sqrt();
+        Self { weights, alternating, edge, long_wave }
     }
 
     /// (ωΔx/v)² at θ.
@@ -50,25 +53,15 @@ impl BarDispersion {
 
     /// ω and group velocity at θ.
     pub fn wave(&self, theta: f64) -> Wave {
-        let long_wave = self.weights.iter().zip(1..).map(|(w, j)| w * f64::from(j * j)).sum::<f64>().sqrt();
-        Wave::from_square(self.square(theta), self.square_slope(theta), long_wave)
-    }
-
-    /// d(ωΔx/v)²/dθ = Σ w_j 2j sin jθ.
-    pub fn square_slope(&self, theta: f64) -> f64 {
-        let sign = if theta.rem_euclid(TAU) > PI { -1.0 } else { 1.0 };
+        let forward = if theta.rem_euclid(TAU) > PI { -1.0 } else { 1.0 };
         let folded = fold(theta);
-        let (weights, angle) = if folded <= FRAC_PI_2 {
-            (&self.weights, folded)
+        let (square, slope) = if folded <= FRAC_PI_2 {
+            sums(&self.weights, folded)
         } else {
-            (&self.alternating, -complement(folded))
+            let (square, slope) = sums(&self.alternating, complement(folded));
+            (self.edge + square, -slope)
         };
-        let sum: f64 = weights
-            .iter()
-            .zip(1_i32..)
-            .map(|(w, j)| w * 2.0 * f64::from(j) * libm::sin(f64::from(j) * angle))
-            .sum();
-        sign * sum
+        Wave::from_square(square, forward * slope, self.long_wave)
     }
 
     /// ωΔx/v at many wavenumbers, in the order given.
@@ -121,6 +114,25 @@ fn reinsch<const L: usize>(weights: &[f64], first: [f64; L]) -> [f64; L] {
         }
     }
     sum
+}
+
+/// Σ_j w_j D_j and its slope Σ_j w_j 2j sin jθ, both by recurrence: sin jθ grows by steps that lose D₁ sin jθ each.
+fn sums(weights: &[f64], theta: f64) -> (f64, f64) {
+    let (half_sine, half_cosine) = libm::sincos(0.5 * theta);
+    let first = 4.0 * half_sine * half_sine;
+    let (mut value, mut step) = (first, first);
+    let (mut sine, mut sine_step) = (2.0 * half_sine * half_cosine, 2.0 * half_sine * half_cosine);
+    let (mut square, mut slope, mut twice_j) = (0.0, 0.0, 2.0);
+    for &weight in weights {
+        square += weight * value;
+        slope += weight * twice_j * sine;
+        step += first * (2.0 - value);
+        value += step;
+        sine_step -= first * sine;
+        sine += sine_step;
+        twice_j += 2.0;
+    }
+    (square, slope)
 }
 
 #[cfg(test)]

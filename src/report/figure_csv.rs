@@ -9,7 +9,7 @@ pub fn figure_table(figure: &Figure) -> Table {
     for (index, panel) in figure.panels.iter().enumerate() {
         let name = |title: &str| if title.is_empty() { format!("{}", index + 1) } else { title.to_owned() };
         let mut push = |title: &str, series: &str, x: Cell, y: Cell| {
-            table.rows.push(vec![name(title).into(), series.into(), x, y]);
+            table.push(vec![name(title).into(), series.into(), x, y]);
         };
         match panel {
             Panel::Lines(lines) => {

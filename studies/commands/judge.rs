@@ -246,6 +246,11 @@ fn folder_of(
         });
     }
     files.extend(tables.iter().map(|table| (table.file.clone(), table.csv())));
+    for (index, (name, _)) in files.iter().enumerate() {
+        if files[..index].iter().any(|(other, _)| other == name) {
+            problems.push(format!("two results would be called {name}"));
+        }
+    }
     let judged: Vec<Judged> = reports.iter().flat_map(|report| report.judged.clone()).collect();
     files.push(("verdicts.csv".to_owned(), verdicts_csv(&judged)));
     (files, reports)
@@ -323,7 +328,12 @@ fn print_table(judged: &[Judged], options: &RunOptions) -> io::Result<()> {
     let terminal = io::stdout().is_terminal();
     let colour = terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
     let width = if terminal { terminal_width() } else { 120 };
-    say(&terminal_table(&shown, width, colour))
+    let place = if options.quiet {
+        String::new()
+    } else {
+        format!("see {}\n", options.out.join("index.html").display())
+    };
+    say(&(terminal_table(&shown, width, colour) + &place))
 }
 
 /// The width of the terminal, as its shell tells it.

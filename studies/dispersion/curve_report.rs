@@ -6,7 +6,8 @@ use crate::question::Place;
 use pd_verify::dispersion::Wave;
 use pd_verify::material::Body;
 use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Series};
-use pd_verify::table::{Cell, Table};
+use pd_verify::table::{Cell, Row, Table};
+use std::sync::Arc;
 
 /// What every table says of a curve, in the order of [`describe`].
 const DESCRIPTION: [&str; 13] = [
@@ -62,23 +63,27 @@ pub fn tables(case: &Curves, traced: &[Traced], place: &Place) -> Vec<Table> {
         ],
     );
     for ((curve, label), traced) in case.curves.iter().zip(&case.labels).zip(traced) {
-        let start = describe(curve, format!("{}/{label}", place.case));
-        let row = |own: Vec<Cell>| start.iter().cloned().chain(own).collect::<Vec<_>>();
+        let start: Arc<[Cell]> = describe(curve, format!("{}/{label}", place.case)).into();
+        let row = |own: Vec<Cell>| Row::of_block(&start, own);
         for &(k, wave) in &traced.points {
             let phase = wave.map(|wave| wave.phase(k));
             let group = wave.map(|wave| wave.group);
             let error = phase.map(|phase| 100.0 * (phase - 1.0));
-            frequencies.rows.push(row(vec![k.into(), wave.map(|wave| wave.omega).into()]));
-            velocities.rows.push(row(vec![k.into(), phase.into(), group.into(), error.into()]));
+            frequencies.push(row(vec![k.into(), wave.map(|wave| wave.omega).into()]));
+            velocities.push(row(vec![k.into(), phase.into(), group.into(), error.into()]));
         }
         let [one, five] = traced.first;
         let wavelength = one.filter(|&k| k > 0.0).map(|k| std::f64::consts::TAU / k);
         let in_horizons = wavelength.zip(curve.horizon()).map(|(length, horizon)| length / horizon);
         let in_dx = wavelength.zip(curve.dx()).map(|(length, dx)| length / dx);
-        thresholds.rows.push(row(vec![one.into(), five.into(), in_horizons.into(), in_dx.into()]));
+        thresholds.push(row(vec![one.into(), five.into(), in_horizons.into(), in_dx.into()]));
     }
     vec![frequencies, velocities, thresholds]
 }
+
+const FREQUENCY_CAPTION: &str = "Frequency over wavenumber, and the error of the phase speed against the local \
+    continuum. Curves of grids end at the edge of the Brillouin zone.";
+const VELOCITY_CAPTION: &str = "Phase and group velocity over the wave speed of the local continuum.";
 
 /// Frequency and phase error in one figure, phase and group velocity in another.
 pub fn figures(case: &Curves, traced: &[Traced], place: &Place) -> Vec<Figure> {
@@ -111,16 +116,11 @@ pub fn figures(case: &Curves, traced: &[Traced], place: &Place) -> Vec<Figure> {
     let frequency = panel("Frequency", Axis::linear("ω/c (1/m)").range(0.0, top), frequency);
     let id = &place.case;
     vec![
-        Figure::new(id.clone(), case.title.clone(), case.title.clone(), frequency)
+        Figure::new(id.clone(), case.title.clone(), FREQUENCY_CAPTION, frequency)
             .panel(error.guide(Guide::Horizontal { at: 0.0, label: String::new() }))
             .columns(2),
-        Figure::new(
-            format!("{id}-velocity"),
-            case.title.clone(),
-            format!("{}: velocities", case.title),
-            phase.guide(local(1.0)),
-        )
-        .panel(group.guide(local(1.0)))
-        .columns(2),
+        Figure::new(format!("{id}-velocity"), case.title.clone(), VELOCITY_CAPTION, phase.guide(local(1.0)))
+            .panel(group.guide(local(1.0)))
+            .columns(2),
     ]
 }

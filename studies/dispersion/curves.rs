@@ -38,7 +38,7 @@ pub struct Curves {
 }
 
 /// Rows that a case may write.
-const MAX_ROWS: u64 = 5_000_000;
+const MAX_ROWS: u64 = 1_000_000;
 /// Wavenumbers at which the reference is asked, spread over each curve.
 const JUDGED: usize = 16;
 /// Phase errors whose first wavenumber is reported.

@@ -93,7 +93,7 @@ impl Question for HeatMap {
             &["case", "kernel", "p", "m", "volume_rule", "calibrated", "k_dx", "worst_phase_error_percent"],
         );
         for (lattice, (mine, _)) in self.lattices.iter().zip(&found) {
-            table.rows.push(vec![
+            table.push(vec![
                 place.case.clone().into(),
                 lattice.kernel.name().into(),
                 lattice.kernel.p().into(),
@@ -179,7 +179,12 @@ impl HeatMap {
         let mut panels = panels.collect::<Vec<_>>().into_iter();
         let Some(first) = panels.next() else { return Vec::new() };
         let title = format!("{}, {} nodes per wavelength", self.title, self.nodes_per_wavelength);
-        let figure = Figure::new(place.case.clone(), title, self.title.clone(), first);
+        let figure = Figure::new(
+            place.case.clone(),
+            title,
+            "Largest error of the phase speed over P and S waves at 0°, 15°, 30° and 45°; hatched where the lattice is refused.",
+            first,
+        );
         vec![panels.fold(figure, Figure::panel)]
     }
 }

@@ -145,7 +145,7 @@ whole end cell: error W(1)(1 − cos kδ)/(2m), order 1; half end cell: order 2"
             for (index, &(h, error)) in levels.iter().enumerate() {
                 let pairwise =
                     index.checked_sub(1).and_then(|coarse| order::pairwise(levels[coarse], (h, error)));
-                table.rows.push(vec![
+                table.push(vec![
                     place.case.clone().into(),
                     sequence.kernel.name().into(),
                     sequence.kernel.p().into(),
@@ -163,7 +163,12 @@ whole end cell: error W(1)(1 − cos kδ)/(2m), order 1; half end cell: order 2"
         let panel = Lines::new(Axis::log("1/m = Δx/δ"), Axis::log("relative error of ω"), series)
             .guide(Guide::Slope { order: 1.0, label: "order 1".into() })
             .guide(Guide::Slope { order: 2.0, label: "order 2".into() });
-        answer.figures.push(Figure::new(place.case.clone(), self.title.clone(), self.title.clone(), panel));
+        answer.figures.push(Figure::new(
+            place.case.clone(),
+            self.title.clone(),
+            format!("Relative error of ω at kδ = {} against the nonlocal continuum.", self.k_horizon),
+            panel,
+        ));
         answer.tables.push(table);
         answer
     }

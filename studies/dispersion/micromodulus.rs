@@ -71,8 +71,10 @@ bar: c₀ = E/(A δ² M₁); plane: c₀ = 8 C₁₁/(3π h δ³ M₂); Mₙ = �
     }
 
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
-        let mut table =
-            Table::new("micromodulus.csv", &["body", "kernel", "p", "c0_over_constant_kernel", "moment"]);
+        let mut table = Table::new(
+            "micromodulus_constants.csv",
+            &["body", "kernel", "p", "c0_over_constant_kernel", "moment"],
+        );
         let mut evidence = Vec::new();
         for body in Body::ALL {
             let pairs = self.kernels.iter().map(|&kernel| {
@@ -83,7 +85,7 @@ bar: c₀ = E/(A δ² M₁); plane: c₀ = 8 C₁₁/(3π h δ³ M₂); Mₙ = �
             for (kernel, (computed, _)) in self.kernels.iter().zip(&pairs) {
                 let constant = subject.micromodulus(body, Kernel::Constant, YOUNGS_MODULUS, SECTION, HORIZON);
                 let moment = kernel.moment(body.dimension() as u32);
-                table.rows.push(vec![
+                table.push(vec![
                     body.name().into(),
                     kernel.name().into(),
                     kernel.p().into(),
@@ -121,8 +123,13 @@ impl Micromodulus {
             let x = Axis::linear("bond length |ξ|/δ");
             Lines::new(x, Axis::linear("c(ξ)/c of the constant kernel"), series.collect()).titled(title)
         };
-        Figure::new(place.case.clone(), self.title.clone(), self.title.clone(), panel(Body::Bar, "Bar"))
-            .panel(panel(Body::PlaneStress, "Plane stress and plane strain"))
-            .columns(2)
+        Figure::new(
+            place.case.clone(),
+            self.title.clone(),
+            "Micromodulus over that of the constant kernel of the same horizon and elastic moduli.",
+            panel(Body::Bar, "Bar"),
+        )
+        .panel(panel(Body::PlaneStress, "Plane stress and plane strain"))
+        .columns(2)
     }
 }

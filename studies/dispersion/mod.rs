@@ -49,6 +49,21 @@ pub const ASKS: [&str; 13] = [
     "heat_map",
 ];
 
+/// Files that cases share; no figure may take their names.
+pub const TABLES: [&str; 11] = [
+    "dispersion_curves",
+    "dispersion_velocities",
+    "dispersion_m_convergence",
+    "phase_error_thresholds",
+    "micromodulus_constants",
+    "moduli",
+    "timestep",
+    "reflection_coefficients",
+    "polar_phase_error",
+    "worst_phase_error",
+    "verdicts",
+];
+
 /// The word that only the shipped studies need.
 const MISPRINTS: &str = "misprints";
 

@@ -240,7 +240,7 @@ impl Moduli {
                     row.push(reason.clone().into());
                 }
             }
-            table.rows.push(row);
+            table.push(row);
         }
         table
     }

@@ -97,7 +97,7 @@ impl Question for Polar {
         for (index, ((branch, _), (points, _))) in asked.iter().zip(&traced).enumerate() {
             let name = &names[index % self.media.len()];
             for &(degrees, error) in points {
-                table.rows.push(vec![
+                table.push(vec![
                     place.case.clone().into(),
                     branch.name().into(),
                     name.clone().into(),
@@ -114,7 +114,7 @@ impl Question for Polar {
         let figure = Figure::new(
             place.case.clone(),
             title,
-            self.title.clone(),
+            "Error of the phase speed against that of the local continuum, by direction of travel; the heavy circle is zero.",
             PolarPanel::new(radial(), p).titled("P waves"),
         )
         .panel(PolarPanel::new(radial(), s).titled("S waves"))

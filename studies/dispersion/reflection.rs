@@ -98,7 +98,7 @@ exactly: nodes n < 0 obey one stencil, n ≥ 0 the other; each side carries its 
 
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
         let mut table = Table::new(
-            "reflection.csv",
+            "reflection_coefficients.csv",
             &[
                 "case",
                 "kernel",
@@ -135,7 +135,7 @@ exactly: nodes n < 0 obey one stencil, n ≥ 0 the other; each side carries its 
                     k.into(),
                 ];
                 row.extend(answers.map(Into::into));
-                table.rows.push(row);
+                table.push(row);
                 for (curve, answer) in curves.iter_mut().zip(answers) {
                     curve.extend(answer.map(|r| (k, r)));
                 }
@@ -143,7 +143,12 @@ exactly: nodes n < 0 obey one stencil, n ≥ 0 the other; each side carries its 
             errors.extend(JUDGED.iter().filter_map(|&k| compare(lattice, &left, k, exact(k))));
             let panel = panel(lattice, curves);
             figure = Some(match figure {
-                None => Figure::new(place.case.clone(), self.title.clone(), self.title.clone(), panel),
+                None => Figure::new(
+                    place.case.clone(),
+                    self.title.clone(),
+                    "Amplitude that returns to the finite differences, by the incident wave. Impedances at equal ω end where the lattice carries no wave.",
+                    panel,
+                ),
                 Some(figure) => figure.panel(panel),
             });
         }

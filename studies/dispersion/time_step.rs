@@ -148,7 +148,7 @@ impl TimeStep {
         let mut table = Table::new("timestep.csv", &columns);
         for (&(body, lattice), found) in self.asked.iter().zip(found) {
             let limits = found.as_ref().map(|(limits, _)| limits);
-            table.rows.push(vec![
+            table.push(vec![
                 place.case.clone().into(),
                 body.name().into(),
                 lattice.kernel.name().into(),
@@ -167,8 +167,12 @@ impl TimeStep {
     }
 
     fn figure(&self, found: &[Option<(Limits, [f64; 2])>], place: &Place) -> Figure {
-        let mut figure =
-            Figure::new(place.case.clone(), self.title.clone(), self.title.clone(), Lines::default());
+        let mut figure = Figure::new(
+            place.case.clone(),
+            self.title.clone(),
+            "Largest stable time step of leapfrog, 2/ω_max, over the usual bound √(2ρ/Σ cV/|ξ|).",
+            Lines::default(),
+        );
         figure.panels.clear();
         for body in [Body::Bar, Body::PlaneStress] {
             let mut series: Vec<Series> = Vec::new();

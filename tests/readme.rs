@@ -1,0 +1,56 @@
+//! The README is true: its picture is what the program draws, its study runs, its commands exist.
+
+use assert_cmd::Command;
+use std::fs;
+use std::path::Path;
+
+fn readme() -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap()
+}
+
+fn program() -> Command {
+    Command::cargo_bin("pd-verify").unwrap()
+}
+
+#[test]
+fn the_picture_is_what_the_program_draws() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = ["dispersion", "--quiet", "--profile", "quick", "--out"];
+    program().args(run).arg(folder.path()).assert().success();
+    let drawn = fs::read_to_string(folder.path().join("dispersion/polar.svg")).unwrap();
+    let shown = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/pictures/polar.svg");
+    assert!(readme().contains("(studies/pictures/polar.svg)"));
+    assert!(
+        fs::read_to_string(shown).unwrap() == drawn,
+        "copy dispersion/polar.svg of a run to studies/pictures/"
+    );
+}
+
+#[test]
+fn the_study_in_it_runs() {
+    let text = readme();
+    let study = text
+        .split("```toml\n")
+        .nth(1)
+        .and_then(|rest| rest.split("```").next())
+        .expect("a study in the README");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("my-aluminium.toml");
+    fs::write(&file, study).unwrap();
+    program().arg("run").arg(&file).arg("--out").arg(folder.path().join("out")).assert().success();
+    assert!(folder.path().join("out/my-aluminium/dispersion_curves.csv").is_file());
+}
+
+#[test]
+fn its_commands_and_options_exist() {
+    let text = readme();
+    for command in ["dispersion", "run", "list", "explain", "plan", "schema", "completions"] {
+        assert!(text.contains(command), "the README does not name {command}");
+        program().args([command, "--help"]).assert().success();
+    }
+    let help = program().args(["run", "--help"]).output().unwrap();
+    let help = String::from_utf8(help.stdout).unwrap();
+    for option in ["--out", "--profile", "--set", "--strict", "--threads", "--quiet", "--no-progress"] {
+        assert!(text.contains(option) && help.contains(option), "{option}");
+    }
+}
