@@ -1,6 +1,7 @@
 //! `asks = "heat_map"`: worst phase error over directions and branches, by kernel, p and m, at equal nodes per wave.
 
 use super::curve::{Curve, Medium};
+use super::lattice_table::{lattice_row, lattice_table};
 use super::sweep::{LatticeSweep, Wrong, check_m, unusable};
 use crate::input::Positive;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
@@ -12,7 +13,6 @@ use pd_verify::kernel::Kernel;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::report::plot::{Axis, Figure, HeatMap as HeatMapPanel};
-use pd_verify::table::Table;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -88,21 +88,10 @@ impl Question for HeatMap {
         let cells = found.iter().filter(|(mine, _)| mine.is_some()).count();
         let evidence =
             vec![("worst_phase_error".into(), error_of(largest(differences), format!("{cells} cells")))];
-        let mut table = Table::new(
-            "worst_phase_error.csv",
-            &["case", "kernel", "p", "m", "volume_rule", "calibrated", "k_dx", "worst_phase_error_percent"],
-        );
-        for (lattice, (mine, _)) in self.lattices.iter().zip(&found) {
-            table.push(vec![
-                place.case.clone().into(),
-                lattice.kernel.name().into(),
-                lattice.kernel.p().into(),
-                lattice.m.into(),
-                lattice.volume_rule.name().into(),
-                lattice.calibrated.into(),
-                self.k_dx().into(),
-                mine.map(|error| 100.0 * error).into(),
-            ]);
+        let mut table = lattice_table("worst_phase_error.csv", &["k_dx", "worst_phase_error_percent"]);
+        for (&lattice, (mine, _)) in self.lattices.iter().zip(&found) {
+            let own = [self.k_dx().into(), mine.map(|error| 100.0 * error).into()];
+            table.push(lattice_row(&place.case, Body::PlaneStress, lattice, own));
         }
         let values: Vec<Option<f64>> =
             found.iter().map(|(mine, _)| mine.map(|error| 100.0 * error)).collect();

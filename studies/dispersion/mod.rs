@@ -10,6 +10,7 @@ pub mod curves;
 pub mod heat_map;
 mod label;
 pub mod lattice_oracles;
+mod lattice_table;
 pub mod long_wave;
 pub mod m_convergence;
 pub mod micromodulus;

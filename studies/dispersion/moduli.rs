@@ -1,6 +1,7 @@
 //! `asks = "moduli"`: the moduli a lattice really has, before and after calibration, and their anisotropy.
 
 use super::curve::reference_lattice;
+use super::lattice_table::{lattice_row, lattice_table};
 use super::sweep::{LatticeSweep, Wrong, check_m, unusable};
 use super::words::BodyName;
 use crate::input::OneOrMany;
@@ -9,7 +10,7 @@ use crate::subject::Subject;
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::kernel::Kernel;
-use pd_verify::lattice::{Calibration, Lattice, Moduli as LatticeModuli};
+use pd_verify::lattice::{Calibration, Lattice, Moduli as LatticeModuli, Stencil, Unusable};
 use pd_verify::material::Body;
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::report::plot::{Axis, Category, Dots, Figure};
@@ -142,29 +143,20 @@ calibration: bonds times α + β cos 4θ, α and β from C₁₁ and C₁₂ as 
     }
 }
 
-fn measure(
-    subject: &dyn Subject,
-    body: Body,
-    lattice: Lattice,
-) -> Result<Measured, pd_verify::lattice::Unusable> {
-    if body == Body::Bar {
-        let stencil = subject.bar_stencil(lattice)?;
-        Ok(Measured {
-            neighbours: 2 * stencil.bonds.len(),
-            before: stencil.before,
-            after: stencil.after,
-            calibration: stencil.calibration,
-            negative_bonds: stencil.negative_bonds(),
-        })
-    } else {
-        let stencil = subject.plane_stencil(lattice)?;
-        Ok(Measured {
-            neighbours: 2 * stencil.bonds.len(),
-            before: stencil.before,
-            after: stencil.after,
-            calibration: stencil.calibration,
-            negative_bonds: stencil.negative_bonds(),
-        })
+fn measure(subject: &dyn Subject, body: Body, lattice: Lattice) -> Result<Measured, Unusable> {
+    match body {
+        Body::Bar => subject.bar_stencil(lattice).map(read),
+        Body::PlaneStress | Body::PlaneStrain => subject.plane_stencil(lattice).map(read),
+    }
+}
+
+fn read<const D: usize>(stencil: Stencil<D>) -> Measured {
+    Measured {
+        neighbours: 2 * stencil.bonds.len(),
+        before: stencil.before,
+        after: stencil.after,
+        calibration: stencil.calibration,
+        negative_bonds: stencil.negative_bonds(),
     }
 }
 
@@ -199,13 +191,6 @@ impl Moduli {
 
     fn table(&self, measured: &[Result<Measured, String>], place: &Place) -> Table {
         let columns = [
-            "case",
-            "body",
-            "kernel",
-            "p",
-            "m",
-            "volume_rule",
-            "calibrated",
             "neighbours",
             "c11_as_printed",
             "c12_as_printed",
@@ -222,25 +207,16 @@ impl Moduli {
             "negative_bonds",
             "refused",
         ];
-        let mut table = Table::new("moduli.csv", &columns);
+        let mut table = lattice_table("moduli.csv", &columns);
         for (&(body, lattice), found) in self.asked.iter().zip(measured) {
-            let mut row: Vec<Cell> = vec![
-                place.case.clone().into(),
-                body.name().into(),
-                lattice.kernel.name().into(),
-                lattice.kernel.p().into(),
-                lattice.m.into(),
-                lattice.volume_rule.name().into(),
-                lattice.calibrated.into(),
-            ];
-            match found {
-                Ok(found) => row.extend(cells(body, found)),
+            let own = match found {
+                Ok(found) => cells(body, found),
                 Err(reason) => {
-                    row.extend(std::iter::repeat_n(Cell::Empty, 14));
-                    row.push(reason.clone().into());
+                    let unknown = std::iter::repeat_n(Cell::Empty, columns.len() - 1);
+                    unknown.chain([reason.clone().into()]).collect()
                 }
-            }
-            table.push(row);
+            };
+            table.push(lattice_row(&place.case, body, lattice, own));
         }
         table
     }

@@ -3,6 +3,7 @@
 //! Three answers beside each other: impedances at equal k as published, at equal ω, and the exact scattering.
 
 use super::curve::reference_lattice;
+use super::lattice_table::{lattice_row, lattice_table};
 use super::sweep::{LatticeSweep, Wrong};
 use super::symmetry::all_usable;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
@@ -15,7 +16,6 @@ use pd_verify::lattice::{Lattice, Stencil};
 use pd_verify::material::Body;
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::report::plot::{Axis, Dash, Figure, Lines, Series};
-use pd_verify::table::Table;
 use pd_verify::verdict::Evidence;
 use pd_verify_reference::oracles;
 use pd_verify_reference::scattering::{self, Half};
@@ -97,21 +97,8 @@ exactly: nodes n < 0 obey one stencil, n ≥ 0 the other; each side carries its 
     }
 
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
-        let mut table = Table::new(
-            "reflection_coefficients.csv",
-            &[
-                "case",
-                "kernel",
-                "p",
-                "m",
-                "volume_rule",
-                "calibrated",
-                "k_dx_fd",
-                "equal_k",
-                "equal_omega",
-                "exact",
-            ],
-        );
+        let mut table =
+            lattice_table("reflection_coefficients.csv", &["k_dx_fd", "equal_k", "equal_omega", "exact"]);
         let left = Chain::finite_differences();
         let (mut figure, mut errors) = (None::<Figure>, Vec::new());
         for &lattice in &self.lattices {
@@ -125,17 +112,8 @@ exactly: nodes n < 0 obey one stencil, n ≥ 0 the other; each side carries its 
                     impedances_at_equal_frequency(&left, &right, k).map(f64::abs),
                     exact(k),
                 ];
-                let mut row = vec![
-                    place.case.clone().into(),
-                    lattice.kernel.name().into(),
-                    lattice.kernel.p().into(),
-                    lattice.m.into(),
-                    lattice.volume_rule.name().into(),
-                    lattice.calibrated.into(),
-                    k.into(),
-                ];
-                row.extend(answers.map(Into::into));
-                table.push(row);
+                let own = std::iter::once(k.into()).chain(answers.map(Into::into));
+                table.push(lattice_row(&place.case, Body::Bar, lattice, own));
                 for (curve, answer) in curves.iter_mut().zip(answers) {
                     curve.extend(answer.map(|r| (k, r)));
                 }

@@ -1,6 +1,7 @@
 //! `asks = "time_step"`: the sharp limit of leapfrog, 2/ω_max, beside the usual row-sum bound.
 
 use super::curve::reference_lattice;
+use super::lattice_table::{lattice_row, lattice_table};
 use super::sweep::{LatticeSweep, Wrong};
 use super::symmetry::all_usable;
 use super::words::BodyName;
@@ -13,7 +14,7 @@ use pd_verify::dispersion::timestep::TimeStep as Limits;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Series};
-use pd_verify::table::Table;
+use pd_verify::table::{Cell, Table};
 use pd_verify_reference as reference;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -132,36 +133,23 @@ fn limits(subject: &dyn Subject, body: Body, lattice: Lattice) -> Option<(Limits
 impl TimeStep {
     fn table(&self, found: &[Option<(Limits, [f64; 2])>], place: &Place) -> Table {
         let columns = [
-            "case",
-            "body",
-            "kernel",
-            "p",
-            "m",
-            "volume_rule",
-            "calibrated",
             "sharp_c_dt_over_dx",
             "row_sum_c_dt_over_dx",
             "sharp_over_row_sum",
             "kx_dx_at_limit",
             "ky_dx_at_limit",
         ];
-        let mut table = Table::new("timestep.csv", &columns);
+        let mut table = lattice_table("timestep.csv", &columns);
         for (&(body, lattice), found) in self.asked.iter().zip(found) {
             let limits = found.as_ref().map(|(limits, _)| limits);
-            table.push(vec![
-                place.case.clone().into(),
-                body.name().into(),
-                lattice.kernel.name().into(),
-                lattice.kernel.p().into(),
-                lattice.m.into(),
-                lattice.volume_rule.name().into(),
-                lattice.calibrated.into(),
+            let own: [Cell; 5] = [
                 limits.map(|l| l.sharp).into(),
                 limits.map(|l| l.row_sum).into(),
                 limits.map(|l| l.sharp / l.row_sum).into(),
                 limits.map(|l| l.at[0]).into(),
                 limits.and_then(|l| l.at.get(1).copied()).into(),
-            ]);
+            ];
+            table.push(lattice_row(&place.case, body, lattice, own));
         }
         table
     }
