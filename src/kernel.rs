@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn narrow_limit_is_the_constant_kernel() {
+    fn wide_limit_is_the_constant_kernel() {
         for n in 0..4 {
             assert_eq!(Kernel::Gaussian { p: 1e-12 }.moment(n), Kernel::Constant.moment(n));
             assert_eq!(Kernel::Exponential { p: 0.0 }.moment(n), Kernel::Constant.moment(n));

@@ -1,7 +1,7 @@
 //! What the body is made of, and the state it is in: bar, plane stress or plane strain.
 //!
 //! The bond-based law has one constant, so Poisson's ratio is not free: 1/3 in plane stress, 1/4 in plane
-//! strain (Silling 2000, J. Mech. Phys. Solids 48, 175; Gerstle et al. 2005 for the plane).
+//! strain (Silling 2000, J. Mech. Phys. Solids 48, 175, reduced to the plane).
 
 /// Young's modulus and density.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -81,7 +81,7 @@ pub struct RunOptions {
     /// Threads to use; results do not depend on it
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Instruction set; the best here if not given
+    /// Instruction set; the best here if not given (waves have one code for all)
     #[arg(long, value_enum)]
     pub isa: Option<Isa>,
     /// Inconclusive counts as failing

@@ -59,5 +59,11 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
 }
 
 fn print(text: &str) -> Result<u8, Refusal> {
-    say(text).map(|()| 0).map_err(|error| Refusal::new(format!("cannot print: {error}")))
+    match say(text) {
+        Ok(()) => Ok(0),
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "error: cannot print: {error}");
+            Ok(judge::End::Computation.code())
+        }
+    }
 }

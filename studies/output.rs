@@ -8,6 +8,14 @@ use std::path::{Path, PathBuf};
 /// The file by which a folder is known to be ours, and may be replaced.
 const MARK: &str = "manifest.json";
 
+/// Files in the root that speak of a run, and how ours can be told from somebody else's.
+const ROOT_FILES: [(&str, &str); 4] = [
+    ("index.html", "pd-verify"),
+    ("summary.md", "# Verification of peridynamics\n"),
+    ("junit.xml", "<testsuites name=\"Verification of peridynamics\""),
+    ("verdicts.csv", "claim,study,case,quantity,"),
+];
+
 /// `--out`.
 #[derive(Debug, Clone)]
 pub struct Output {
@@ -24,10 +32,22 @@ impl Output {
         };
         for folder in folders {
             let path = root.join(folder);
-            let foreign = path.exists() && !path.join(MARK).is_file() && !is_empty(&path);
-            if foreign {
-                let message =
-                    format!("{} exists and is not a folder of results: it has no {MARK}", path.display());
+            if path.exists() && !is_ours(&path) && !is_empty(&path) {
+                let message = format!(
+                    "{} exists and is not a folder of results: it has no {MARK} of a run",
+                    path.display()
+                );
+                return Err(
+                    Refusal::new(message).help("move it away, or choose another folder with --out DIR")
+                );
+            }
+        }
+        for (file, sign) in ROOT_FILES {
+            let path = root.join(file);
+            if path.exists()
+                && !fs::read_to_string(&path).is_ok_and(|text| text.is_empty() || text.contains(sign))
+            {
+                let message = format!("{} exists and is not of a run of this program", path.display());
                 return Err(
                     Refusal::new(message).help("move it away, or choose another folder with --out DIR")
                 );
@@ -54,7 +74,11 @@ impl Output {
         if place.exists() {
             fs::rename(&place, &old)?;
         }
-        fs::rename(&partial, &place)?;
+        if let Err(error) = fs::rename(&partial, &place) {
+            let _ = fs::rename(&old, &place);
+            let _ = fs::remove_dir_all(&partial);
+            return Err(error);
+        }
         let _ = fs::remove_dir_all(&old);
         Ok(place)
     }
@@ -71,6 +95,13 @@ impl Output {
     }
 }
 
+/// Whether a folder holds the manifest of a run; other programs have files of that name too.
+fn is_ours(path: &Path) -> bool {
+    let manifest = fs::read_to_string(path.join(MARK)).ok();
+    let manifest = manifest.and_then(|text| serde_json::from_str::<serde_json::Value>(&text).ok());
+    manifest.is_some_and(|manifest| manifest["studies"].is_array() && manifest["rustc"].is_string())
+}
+
 fn is_empty(path: &Path) -> bool {
     fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_none())
 }
@@ -83,8 +114,10 @@ mod tests {
     fn a_folder_is_replaced_whole_and_a_foreign_one_is_left_alone() {
         let root = tempfile::tempdir().unwrap();
         let output = Output::open(root.path(), &["a".into()]).unwrap();
-        output.replace_folder("a", &[(MARK.into(), "{}".into()), ("x.csv".into(), "1".into())]).unwrap();
-        output.replace_folder("a", &[(MARK.into(), "{}".into())]).unwrap();
+        let manifest = r#"{"studies": [], "rustc": ""}"#;
+        output.replace_folder("a", &[(MARK.into(), manifest.into()), ("x.csv".into(), "1".into())]).unwrap();
+        output.replace_folder("a", &[(MARK.into(), manifest.into())]).unwrap();
+        assert!(Output::open(root.path(), &["a".into()]).is_ok());
         assert!(!root.path().join("a/x.csv").exists());
         assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);
         fs::create_dir(root.path().join("b")).unwrap();

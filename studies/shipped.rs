@@ -21,6 +21,10 @@ pub fn shipped(kind: Option<Kind>, settings: &[Setting]) -> Result<Vec<Study>, R
         let (study, found) = Study::read(name, text, settings)?;
         if kind.is_none_or(|kind| kind == study.kind) {
             used.iter_mut().zip(found).for_each(|(used, found)| *used |= found);
+            if studies.iter().any(|other: &Study| other.id == study.id) {
+                return Err(Refusal::new(format!("id \"{}\" is the id of another shipped study", study.id))
+                    .help("leave the ids of shipped studies alone"));
+            }
             studies.push(study);
         }
     }

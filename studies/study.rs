@@ -8,6 +8,7 @@ use pd_verify::material::Material;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
+use std::collections::HashSet;
 
 /// The version of the format that this program reads.
 pub const FORMAT: u64 = 1;
@@ -101,8 +102,8 @@ impl Study {
             youngs_modulus: asked.youngs_modulus_pa.0,
             density: asked.density_kg_m3.0,
         });
-        check_poisson_ratio(&document, header.material.as_ref())?;
-        let cases = read_cases(&document, &header.id, material)?;
+        let ratio = header.material.as_ref().and_then(|asked| asked.poisson_ratio);
+        let cases = read_cases(&document, &header.id, material, ratio)?;
         let Header { id, kind, title, about, source, .. } = header;
         let (about, source) = (about.unwrap_or_default(), source.unwrap_or_default());
         Ok(Self { id, kind, title, about, source, document, cases })
@@ -146,12 +147,22 @@ fn check_figure_name(document: &Document, path: &str, id: &str, asks: &str) -> R
     if !TABLES.contains(&id) || asks == id {
         return Ok(());
     }
-    Err(document.refuse(path, format!("\"{id}\" is the name of a table")).help("give the case another id"))
+    Err(document.refuse(path, format!("\"{id}\" is the name of a table")).help("choose another id"))
 }
 
-fn check_poisson_ratio(document: &Document, material: Option<&MaterialAsked>) -> Result<(), Refusal> {
-    let Some(ratio) = material.and_then(|material| material.poisson_ratio) else { return Ok(()) };
-    if [1.0 / 3.0, 0.25].iter().any(|fixed| (ratio - fixed).abs() < 1e-3) {
+/// The bond-based law fixes Poisson's ratio by the body; in a bar it plays no part.
+fn check_poisson_ratio(document: &Document, ratio: Option<f64>, case: &Value) -> Result<(), Refusal> {
+    let Some(ratio) = ratio else { return Ok(()) };
+    let fixed = |body: &str| match body {
+        "plane_stress" => vec![1.0 / 3.0],
+        "plane_strain" => vec![0.25],
+        _ => vec![1.0 / 3.0, 0.25],
+    };
+    let bodies: Vec<&str> = match &case["body"] {
+        Value::Array(bodies) => bodies.iter().filter_map(Value::as_str).collect(),
+        body => vec![body.as_str().unwrap_or_default()],
+    };
+    if bodies.iter().all(|body| fixed(body).iter().any(|fixed| (ratio - fixed).abs() < 1e-3)) {
         return Ok(());
     }
     let message = format!(
@@ -160,7 +171,15 @@ fn check_poisson_ratio(document: &Document, material: Option<&MaterialAsked>) ->
     Err(document.refuse("material.poisson_ratio", message).help("leave poisson_ratio out"))
 }
 
-fn read_cases(document: &Document, study: &str, material: Option<Material>) -> Result<Vec<Case>, Refusal> {
+/// Ends of the names of figures beside the one that is called like its case.
+const SUFFIXES: [&str; 4] = ["-velocity", "-full", "-linear", "-exact-area"];
+
+fn read_cases(
+    document: &Document,
+    study: &str,
+    material: Option<Material>,
+    ratio: Option<f64>,
+) -> Result<Vec<Case>, Refusal> {
     let written = match document.get("case") {
         Some(Value::Array(items)) if !items.is_empty() => items,
         Some(Value::Array(_)) | None => {
@@ -175,15 +194,25 @@ fn read_cases(document: &Document, study: &str, material: Option<Material>) -> R
         }
     };
     let mut cases: Vec<Case> = Vec::new();
+    let mut ids: HashSet<String> = HashSet::new();
     for (index, value) in written.iter().enumerate() {
         let case = read_one(document, study, material, index, value)?;
-        if cases.iter().any(|other| other.place.case == case.place.case) {
+        check_poisson_ratio(document, ratio, value)?;
+        if !ids.insert(case.place.case.clone()) {
             let message = format!("two cases are called \"{}\"", case.place.case);
             return Err(document
                 .refuse(&format!("case[{index}].id"), message)
                 .help("give each case its own id"));
         }
         cases.push(case);
+    }
+    for (index, case) in cases.iter().enumerate() {
+        let other = SUFFIXES.iter().find_map(|suffix| case.place.case.strip_suffix(suffix));
+        let other = other.filter(|other| ids.contains(*other));
+        if let Some(other) = other {
+            let message = format!("\"{}\" is the name of a figure of the case \"{other}\"", case.place.case);
+            return Err(document.refuse(&format!("case[{index}].id"), message).help("choose another id"));
+        }
     }
     Ok(cases)
 }

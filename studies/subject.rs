@@ -3,8 +3,9 @@
 //! Studies ask a [`Subject`] for every number they judge, so that a wrong ingredient can be put in its place and
 //! the verdict watched. Each default is the library's own function and nothing else.
 
+use nalgebra::Complex;
 use pd_verify::dispersion::bar::BarDispersion;
-use pd_verify::dispersion::joint::{self, Chain, Reflection};
+use pd_verify::dispersion::joint::{self, Chain};
 use pd_verify::dispersion::plane::PlaneDispersion;
 use pd_verify::dispersion::timestep::{self, TimeStep};
 use pd_verify::dispersion::{Branch, Wave, continuum, finite_differences, leapfrog};
@@ -100,8 +101,13 @@ pub trait Subject: Sync {
         joint::impedances_at_equal_wavenumber(left, right, theta)
     }
 
+    /// The same with impedances at equal ω; `None` where the right chain carries no such wave.
+    fn reflection_at_equal_frequency(&self, left: &Chain, right: &Chain, theta: f64) -> Option<f64> {
+        joint::impedances_at_equal_frequency(left, right, theta)
+    }
+
     /// What a joint sends back of the left chain's wave.
-    fn reflection(&self, left: &Chain, right: &Chain, theta: f64) -> Option<Reflection> {
+    fn reflection(&self, left: &Chain, right: &Chain, theta: f64) -> Option<Complex<f64>> {
         joint::exact(left, right, theta)
     }
 }

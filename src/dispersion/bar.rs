@@ -2,7 +2,7 @@
 //!
 //! A recurrence replaces the cosine of every bond. D_j = 4 sin²(jθ/2) obeys D_{j+1} − D_j = D_j − D_{j−1} +
 //! D₁(2 − D_j), which loses nothing for θ ≤ π/2 (Reinsch's form; Stoer & Bulirsch, Introduction to Numerical
-//! Analysis, 2.3.2). Beyond, φ = π − θ takes its place, since D_j(θ) is D_j(φ) for even j and 4 − D_j(φ) for odd.
+//! Analysis). Beyond, φ = π − θ takes its place, since D_j(θ) is D_j(φ) for even j and 4 − D_j(φ) for odd.
 
 use super::Wave;
 use crate::lattice::Stencil;

@@ -39,11 +39,15 @@ fn finish(factor: f64, square: Integral, slope: Integral) -> (Wave, f64) {
     (wave, if square.value > 0.0 { 0.5 * square.error / square.value } else { 0.0 })
 }
 
-/// ∫₀¹ W f ds on panels no wider than a period of the wave or the width of the kernel.
+/// Panels of the quadrature: none wider than a period of the wave or than the kernel.
+pub fn panels(kernel: Kernel, z: f64) -> usize {
+    let periods = z / std::f64::consts::TAU;
+    periods.max(kernel.p().unwrap_or(0.0)).max(1.0).ceil() as usize
+}
+
+/// ∫₀¹ W f ds.
 fn integrate(kernel: Kernel, z: f64, f: impl Fn(f64) -> f64) -> Integral {
-    let periods = (z / (2.0 * std::f64::consts::PI)).ceil();
-    let widths = kernel.p().unwrap_or(0.0).ceil();
-    composite(0.0, 1.0, periods.max(widths).max(1.0) as usize, |s| kernel.weight(s) * f(s))
+    composite(0.0, 1.0, panels(kernel, z), |s| kernel.weight(s) * f(s))
 }
 
 /// Below this the Bessel forms cancel and their power series take over.

@@ -16,7 +16,8 @@ pub fn wave(space: Wave, courant: f64, rest: Option<f64>) -> Option<Wave> {
     }
     let root = rest.max(0.0).sqrt();
     let omega = 2.0 / courant * libm::atan2(half, root);
-    let group = if root == 0.0 && space.group == 0.0 { 0.0 } else { space.group / root };
+    // At the limit itself the slope is 0/0; nothing is said of it.
+    let group = if root == 0.0 { f64::NAN } else { space.group / root };
     Some(Wave { omega, group })
 }
 

@@ -25,6 +25,12 @@ impl Symmetric {
         ([larger, smaller], [libm::cos(angle), libm::sin(angle)])
     }
 
+    fn add(&mut self, factor: f64, other: Self) {
+        self.xx += factor * other.xx;
+        self.xy += factor * other.xy;
+        self.yy += factor * other.yy;
+    }
+
     fn along(self, e: [f64; 2]) -> f64 {
         self.xx * e[0] * e[0] + 2.0 * self.xy * e[0] * e[1] + self.yy * e[1] * e[1]
     }
@@ -96,43 +102,37 @@ impl PlaneDispersion {
 
     /// The matrix whose eigenvalues are (ωΔx/c_d)², at θ = (k_x Δx, k_y Δx).
     pub fn matrix(&self, theta: [f64; 2]) -> Symmetric {
+        self.matrix_and_slope(theta, [0.0; 2]).0
+    }
+
+    /// [`Self::matrix`] and its derivative along `direction`.
+    fn matrix_and_slope(&self, theta: [f64; 2], direction: [f64; 2]) -> (Symmetric, Symmetric) {
         let half_x = half_angles(self.reach, theta[0]);
         let half_y = half_angles(self.reach, theta[1]);
-        let mut total = Symmetric::default();
+        let (mut total, mut slope) = (Symmetric::default(), Symmetric::default());
         for bond in &self.bonds {
             let (sine, cosine) = half_x[bond.column.unsigned_abs() as usize];
             let sine = if bond.column < 0 { -sine } else { sine };
             let (row_sine, row_cosine) = half_y[bond.row];
             let combined = sine * row_cosine + cosine * row_sine;
-            let factor = 4.0 * combined * combined;
-            total.xx += factor * bond.stiffness.xx;
-            total.xy += factor * bond.stiffness.xy;
-            total.yy += factor * bond.stiffness.yy;
+            let across = cosine * row_cosine - sine * row_sine;
+            let along = f64::from(bond.column) * direction[0] + bond.row as f64 * direction[1];
+            total.add(4.0 * combined * combined, bond.stiffness);
+            slope.add(4.0 * combined * across * along, bond.stiffness);
         }
-        total
-    }
-
-    /// Derivative of [`Self::matrix`] along `direction`.
-    fn matrix_slope(&self, theta: [f64; 2], direction: [f64; 2]) -> Symmetric {
-        let mut total = Symmetric::default();
-        for bond in &self.bonds {
-            let (i, j) = (f64::from(bond.column), bond.row as f64);
-            let factor = 2.0 * libm::sin(i * theta[0] + j * theta[1]) * (i * direction[0] + j * direction[1]);
-            total.xx += factor * bond.stiffness.xx;
-            total.xy += factor * bond.stiffness.xy;
-            total.yy += factor * bond.stiffness.yy;
-        }
-        total
+        (total, slope)
     }
 
     /// The wave of a branch at |k|Δx along `degrees`, in units of the branch's own speed.
     pub fn wave(&self, k_dx: f64, degrees: f64, branch: Branch) -> Wave {
         let along = direction(degrees);
-        let theta = along.map(|n| n * k_dx);
         let scale = speed_ratio_squared(branch);
-        let (square, polarisation) = pick(self.matrix(theta), along, branch);
-        let slope = self.matrix_slope(theta, along).along(polarisation);
-        Wave::from_square(scale * square, scale * slope, self.long_wave(degrees, branch))
+        let (matrix, slope) = self.matrix_and_slope(along.map(|n| n * k_dx), along);
+        let (square, polarisation) = pick(matrix, along, branch);
+        if square == 0.0 {
+            return Wave { omega: 0.0, group: self.long_wave(degrees, branch) };
+        }
+        Wave::from_square(scale * square, scale * slope.along(polarisation), 0.0)
     }
 
     /// Phase speed over the branch's own as k → 0.
@@ -142,9 +142,7 @@ impl PlaneDispersion {
         for bond in &self.bonds {
             let projected = f64::from(bond.column) * along[0] + bond.row as f64 * along[1];
             let factor = projected * projected;
-            christoffel.xx += factor * bond.stiffness.xx;
-            christoffel.xy += factor * bond.stiffness.xy;
-            christoffel.yy += factor * bond.stiffness.yy;
+            christoffel.add(factor, bond.stiffness);
         }
         (speed_ratio_squared(branch) * pick(christoffel, along, branch).0).max(0.0).sqrt()
     }

@@ -17,6 +17,8 @@ pub(super) struct Row {
     pub computed: String,
     pub reference: String,
     pub error: String,
+    /// What the bound is about: the error, or the value itself where the bound is a least value.
+    pub weighed: String,
     pub error_kind: String,
     pub bound: String,
     pub basis: &'static str,
@@ -40,6 +42,11 @@ impl Row {
             computed: precise(evidence.computed),
             reference: precise(evidence.reference),
             error: readable(evidence.error),
+            weighed: readable(if claim.relation == Relation::AtLeast {
+                evidence.computed
+            } else {
+                evidence.error
+            }),
             error_kind: claim.error_kind.word().replace('_', " "),
             bound: bound(claim),
             basis: claim.basis.word(),

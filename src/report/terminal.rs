@@ -11,7 +11,7 @@ pub fn terminal_table(judged: &[Judged], width: usize, colour: bool) -> String {
         |text: fn(&Row) -> &str| rows.iter().map(|row| text(row).chars().count()).max().unwrap_or(0);
     let columns = Columns {
         verdict: longest(|row| row.verdict),
-        error: longest(|row| &row.error),
+        error: longest(|row| &row.weighed),
         bound: longest(|row| &row.bound),
     };
     let mut out = String::new();
@@ -47,8 +47,13 @@ struct Columns {
 fn line(row: &Row, name: &str, columns: &Columns, width: usize, verdict: Verdict, colour: bool) -> String {
     let fixed = 2 + columns.verdict + 2 + 2 + columns.error + 2 + columns.bound;
     let room = width.saturating_sub(fixed).max(12);
-    let rest =
-        format!("  {:<room$}  {:>error$}  {}", cut(name, room), row.error, row.bound, error = columns.error);
+    let rest = format!(
+        "  {:<room$}  {:>error$}  {}",
+        cut(name, room),
+        row.weighed,
+        row.bound,
+        error = columns.error
+    );
     let word = format!("{:<size$}", row.verdict, size = columns.verdict);
     let rest = cut(rest.trim_end(), width.saturating_sub(2 + columns.verdict));
     match colour {

@@ -49,7 +49,9 @@ fn unknown(studies: &[Study], id: &str) -> Refusal {
             ids.extend(case.claims().into_iter().map(|claim| claim.id));
         }
     }
-    let help = match nearest(id, ids.iter().map(String::as_str)) {
+    let inside = format!("/{id}");
+    let end = ids.iter().map(String::as_str).find(|known| known.ends_with(&inside));
+    let help = match end.or_else(|| nearest(id, ids.iter().map(String::as_str))) {
         Some(near) => format!("did you mean {near}? `pd-verify list` shows all"),
         None => "`pd-verify list` shows all studies and cases".into(),
     };

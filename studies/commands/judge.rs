@@ -16,7 +16,7 @@ use pd_verify::report::{
 };
 use pd_verify::verdict::{Judged, Verdict};
 use std::fs;
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// How a command ended.
@@ -80,7 +80,8 @@ fn read_files(files: &[PathBuf], kind: Option<Kind>, settings: &[Setting]) -> Re
     let mut groups: Vec<Group> = Vec::new();
     let mut used = vec![false; settings.len()];
     for file in files {
-        let text = read_text(file)?;
+        let cure = "give the path of a study file; `pd-verify dispersion` runs the shipped studies";
+        let text = read_text(file, cure)?;
         let (study, found) = Study::read(&file.display().to_string(), &text, settings)?;
         used.iter_mut().zip(found).for_each(|(used, found)| *used |= found);
         if kind.is_some_and(|kind| kind != study.kind) {
@@ -105,17 +106,22 @@ fn read_files(files: &[PathBuf], kind: Option<Kind>, settings: &[Setting]) -> Re
     Ok(groups)
 }
 
-/// The text of a study file.
-pub fn read_text(file: &Path) -> Result<String, Refusal> {
-    let refuse = |error: &dyn std::fmt::Display| {
-        Refusal::new(format!("cannot read {}: {error}", file.display()))
-            .help("give the path of a study file, or an id from `pd-verify list`")
-    };
-    let size = fs::metadata(file).map_err(|error| refuse(&error))?.len();
-    if size > MAX_BYTES as u64 {
-        return Err(refuse(&format!("{size} bytes are more than a study can have ({MAX_BYTES})")));
+/// The text of a study file; a pipe is as good as a file.
+pub fn read_text(file: &Path, cure: &str) -> Result<String, Refusal> {
+    let name = file.display().to_string();
+    let refuse = |error: io::Error| Refusal::new(format!("cannot read {name}: {error}")).help(cure);
+    let mut bytes = Vec::new();
+    let opened = fs::File::open(file).map_err(refuse)?;
+    opened.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(refuse)?;
+    if bytes.len() > MAX_BYTES {
+        let message = format!("{name} is larger than a study can be, {MAX_BYTES} bytes");
+        return Err(Refusal::new(message).help("split it into several studies"));
     }
-    fs::read_to_string(file).map_err(|error| refuse(&error))
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+        Refusal::new(format!("{name}:{line} is not UTF-8 text")).help("save the file as UTF-8")
+    })
 }
 
 fn compute(groups: Vec<Group>, options: &RunOptions) -> Result<End, Refusal> {
@@ -184,19 +190,29 @@ fn compute_and_write(groups: &[Group], options: &RunOptions, output: &Output) ->
         let _ = writeln!(io::stderr(), "error: {problem}");
     }
     if unfinished {
+        let total = verdicts.len();
+        let _ = writeln!(io::stderr(), "interrupted: {total} claims were judged, the rest was not run");
         return End::Interrupted;
+    }
+    if !verdicts.contains(&Verdict::Pass) {
+        let _ = writeln!(io::stderr(), "no claim passed, which is no success");
     }
     if failed || !problems.is_empty() { End::Computation } else { verdict_of(&verdicts, options.strict) }
 }
 
 /// 0 when at least one claim passes and none fails.
 pub fn verdict_of(verdicts: &[Verdict], strict: bool) -> End {
-    let failing = |verdict: &Verdict| match verdict {
+    let failing = verdicts.iter().any(|&verdict| fails(verdict, strict));
+    if verdicts.contains(&Verdict::Pass) && !failing { End::Pass } else { End::Fail }
+}
+
+/// Whether a verdict makes the run fail.
+fn fails(verdict: Verdict, strict: bool) -> bool {
+    match verdict {
         Verdict::Fail | Verdict::Xpass | Verdict::Error => true,
         Verdict::Inconclusive => strict,
         Verdict::Pass | Verdict::Xfail | Verdict::Skipped => false,
-    };
-    if verdicts.contains(&Verdict::Pass) && !verdicts.iter().any(failing) { End::Pass } else { End::Fail }
+    }
 }
 
 fn manifest(studies: &[Study], options: &RunOptions) -> Manifest {
@@ -319,7 +335,7 @@ fn append_step_summary(markdown: &str) -> io::Result<()> {
 }
 
 fn print_table(judged: &[Judged], options: &RunOptions) -> io::Result<()> {
-    let failing = |one: &&Judged| matches!(one.verdict, Verdict::Fail | Verdict::Xpass | Verdict::Error);
+    let failing = |one: &&Judged| fails(one.verdict, options.strict);
     let shown: Vec<Judged> =
         if options.quiet { judged.iter().filter(failing).cloned().collect() } else { judged.to_vec() };
     if shown.is_empty() {

@@ -1,7 +1,7 @@
 //! `pd-verify plan STUDY`: what would be done, and what it would cost; runs nothing and writes nothing.
 
 use super::judge::{read_text, settings};
-use crate::input::Refusal;
+use crate::input::{Refusal, nearest};
 use crate::question::Profile;
 use crate::shipped::{SHIPPED, refuse_unused};
 use crate::study::Study;
@@ -56,12 +56,17 @@ pub fn plan(study: &str, as_json: bool, profile: Profile, set: &[String]) -> Res
 /// A shipped study by id, or a file.
 fn find(name: &str, set: &[String]) -> Result<Study, Refusal> {
     let settings = settings(set)?;
-    let shipped = SHIPPED
-        .iter()
-        .find(|(_, text)| Study::read(name, text, &[]).is_ok_and(|(study, _)| study.id == name));
+    let id = |text| Study::read(name, text, &[]).map_or(String::new(), |(study, _)| study.id);
+    let shipped = SHIPPED.iter().find(|(_, text)| id(text) == name);
     let (study, used) = match shipped {
         Some((file, text)) => Study::read(file, text, &settings)?,
-        None => Study::read(name, &read_text(Path::new(name))?, &settings)?,
+        None => {
+            let ids: Vec<String> = SHIPPED.iter().map(|(_, text)| id(text)).collect();
+            let near = nearest(name, ids.iter().map(String::as_str));
+            let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+            let cure = format!("{near}give the path of a study file, or an id from `pd-verify list`");
+            Study::read(name, &read_text(Path::new(name), &cure)?, &settings)?
+        }
     };
     refuse_unused(&settings, &used)?;
     Ok(study)

@@ -97,7 +97,7 @@ impl Curve {
     }
 
     /// cΔt/Δx with the branch's own speed.
-    fn own_courant(&self) -> Option<f64> {
+    pub fn own_courant(&self) -> Option<f64> {
         self.courant.map(|courant| courant / speed_ratio_squared(self.own_branch()).sqrt())
     }
 

@@ -1,7 +1,8 @@
 //! What a case of curves shows: its rows in the tables, and its figures.
 
 use super::curve::Curve;
-use super::curves::{Curves, Traced};
+use super::curves::Curves;
+use super::trace::Traced;
 use crate::question::Place;
 use pd_verify::dispersion::Wave;
 use pd_verify::material::Body;

@@ -1,18 +1,19 @@
 //! `asks = "curves"`: dispersion curves, their phase error against classical waves, and where it passes 1 % and 5 %.
 
-use super::curve::{Curve, Medium, Prepared};
+use super::curve::{Curve, Medium};
 use super::curve_report;
+use super::curve_sweep::CurveSweep;
 use super::label::labels;
-use super::sweep::{CurveSweep, Wrong};
+use super::sweep::{Wrong, family_size};
+use super::trace::{JUDGED, LeftOut, SEARCH, Traced, trace};
 use super::wavenumbers::Wavenumbers;
 use super::words::BodyName;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
-use pd_verify::dispersion::Wave;
-use pd_verify::family::half_family;
-use pd_verify::material::{Body, Material};
+use pd_verify::dispersion::continuum::panels;
+use pd_verify::material::Material;
 use pd_verify::verdict::Evidence;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -39,10 +40,6 @@ pub struct Curves {
 
 /// Rows that a case may write.
 const MAX_ROWS: u64 = 1_000_000;
-/// Wavenumbers at which the reference is asked, spread over each curve.
-const JUDGED: usize = 16;
-/// Phase errors whose first wavenumber is reported.
-const THRESHOLDS: [f64; 2] = [0.01, 0.05];
 
 impl CurvesAsked {
     /// Every combination as a curve, or what is wrong.
@@ -64,6 +61,9 @@ impl CurvesAsked {
                 message,
                 "fewer wavenumbers, or shorter lists in the sweeps",
             ));
+        }
+        for curve in &curves {
+            self.wavenumbers.check_for(curve).map_err(|wrong| wrong.inside("wavenumbers"))?;
         }
         let labels = labels(&curves);
         Ok(Curves { title: title.to_owned(), curves, labels, wavenumbers: self.wavenumbers.clone() })
@@ -117,13 +117,13 @@ impl Question for Curves {
     }
 
     fn effort(&self) -> Effort {
-        let per_curve = self.wavenumbers.count() + 600;
+        let evaluations = self.wavenumbers.count().saturating_add(2 * u64::from(SEARCH));
         let mut effort = Effort { curves: self.curves.len() as u64, ..Effort::default() };
         for curve in &self.curves {
             effort += Effort {
-                evaluations: per_curve,
-                bond_evaluations: per_curve.saturating_mul(visits(curve)),
-                reference_evaluations: JUDGED as u64 + 18,
+                evaluations,
+                bond_evaluations: evaluations.saturating_mul(visits(curve, self.wavenumbers.largest(curve))),
+                reference_evaluations: JUDGED as u64 + 34,
                 ..Effort::default()
             };
         }
@@ -139,7 +139,10 @@ leapfrog: sin(ωΔt/2) = ΩΔt/2, Ω the frequency in exact time"
     }
 
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
-        let traced: Vec<Traced> = self.curves.par_iter().map(|curve| self.trace(curve, subject)).collect();
+        let follow = |curve: &Curve| trace(curve, self.wavenumbers.of(curve), subject);
+        let Some(traced) = self.curves.par_iter().map(follow).collect::<Option<Vec<Traced>>>() else {
+            return Answer::default();
+        };
         Answer {
             evidence: self.evidence(&traced),
             tables: curve_report::tables(self, &traced, place),
@@ -148,148 +151,50 @@ leapfrog: sin(ωΔt/2) = ΩΔt/2, Ω the frequency in exact time"
     }
 }
 
-/// What was found along one curve.
-pub struct Traced {
-    /// k in 1/m, and ω/c in 1/m with the group velocity over c; `None` where the scheme is unstable.
-    pub points: Vec<(f64, Option<Wave>)>,
-    /// Scaled error of ω where the reference was asked.
-    omega_errors: Vec<f64>,
-    group_errors: Vec<f64>,
-    /// First k whose phase error passes each threshold.
-    pub first: [Option<f64>; 2],
-    first_errors: Vec<f64>,
-    beyond_reference: usize,
-}
-
 impl Curves {
     fn any(&self, f: impl Fn(&Curve) -> bool) -> bool {
         self.curves.iter().any(f)
     }
 
-    fn trace(&self, curve: &Curve, subject: &dyn Subject) -> Traced {
-        let prepared = curve.prepare(subject).expect("every lattice was checked when the study was read");
-        let points: Vec<_> = self.wavenumbers.of(curve).into_iter().map(|k| (k, prepared.wave(k))).collect();
-        let mut traced = Traced {
-            omega_errors: Vec::new(),
-            group_errors: Vec::new(),
-            first: THRESHOLDS.map(|threshold| first_beyond(&prepared, curve, threshold)),
-            first_errors: Vec::new(),
-            beyond_reference: 0,
-            points,
-        };
-        let stride = traced.points.len().div_ceil(JUDGED).max(1);
-        let last = traced.points.len() - 1;
-        for (index, &(k, wave)) in traced.points.iter().enumerate() {
-            if k > 0.0 && (index % stride == stride - 1 || index == last) {
-                match (wave, curve.reference(k)) {
-                    (Some(wave), Some(exact)) => {
-                        traced.omega_errors.push(scaled_error(curve, k, wave, exact));
-                        traced.group_errors.push((wave.group - exact.group).abs());
-                    }
-                    (None, None) => {}
-                    (Some(_), None) if within_reference(curve, k) => traced.omega_errors.push(f64::INFINITY),
-                    (Some(_), None) => traced.beyond_reference += 1,
-                    (None, Some(_)) => traced.omega_errors.push(f64::INFINITY),
-                }
-            }
-        }
-        for (first, threshold) in traced.first.into_iter().zip(THRESHOLDS) {
-            traced.first_errors.extend(first.and_then(|k| judge_first(curve, k, threshold)));
-        }
-        traced
-    }
-
     fn evidence(&self, traced: &[Traced]) -> Vec<(String, Evidence)> {
-        let select = |continuum: bool| {
-            let mine = self
-                .curves
-                .iter()
-                .zip(traced)
-                .filter(move |(curve, _)| matches!(curve.medium, Medium::Continuum { .. }) == continuum);
-            let judged: usize = mine.clone().map(|(_, traced)| traced.omega_errors.len()).sum();
-            let beyond: usize = mine.clone().map(|(_, traced)| traced.beyond_reference).sum();
-            let error = largest(mine.flat_map(|(_, traced)| traced.omega_errors.iter().copied()));
-            let beyond =
-                if beyond > 0 { format!(", {beyond} beyond the reference left out") } else { String::new() };
-            error_of(error, format!("{judged} wavenumbers judged{beyond}"))
+        let omega = |continuum: bool| {
+            let pairs = self.curves.iter().zip(traced);
+            let mine: Vec<&Traced> = pairs
+                .filter(|(curve, _)| matches!(curve.medium, Medium::Continuum { .. }) == continuum)
+                .map(|(_, traced)| traced)
+                .collect();
+            let mut left_out = LeftOut::default();
+            mine.iter().for_each(|traced| left_out += traced.left_out);
+            let errors: Vec<f64> =
+                mine.iter().flat_map(|traced| traced.omega_errors.iter().copied()).collect();
+            error_of(
+                largest(errors.iter().copied()),
+                format!("{} wavenumbers judged{left_out}", errors.len()),
+            )
         };
         let group = largest(traced.iter().flat_map(|t| t.group_errors.iter().copied()));
         let first = largest(traced.iter().flat_map(|t| t.first_errors.iter().copied()));
         let passed = traced.iter().flat_map(|t| t.first).filter(Option::is_some).count();
+        let none = 2 * traced.len() - passed;
         vec![
-            ("continuum".into(), select(true)),
-            ("grid".into(), select(false)),
+            ("continuum".into(), omega(true)),
+            ("grid".into(), omega(false)),
             ("group_velocity".into(), error_of(group, "")),
-            ("first_wavenumber".into(), error_of(first, format!("{passed} crossings reported"))),
+            (
+                "first_wavenumber".into(),
+                error_of(first, format!("{passed} crossings, {none} curves never cross")),
+            ),
         ]
     }
 }
 
-/// |Δω|/|ω| in the continuum, |Δω|/(|ω| + |k ∂ω/∂k|) on a grid.
-pub fn scaled_error(curve: &Curve, k: f64, wave: Wave, exact: Wave) -> f64 {
-    let rounding_of_k =
-        if matches!(curve.medium, Medium::Continuum { .. }) { 0.0 } else { (k * exact.group).abs() };
-    (wave.omega - exact.omega).abs() / (exact.omega.abs() + rounding_of_k)
-}
-
-/// Whether a missing answer of the reference means that the scheme is unstable there.
-fn within_reference(curve: &Curve, k: f64) -> bool {
+/// Bonds, or quadrature points, that one evaluation at k visits.
+fn visits(curve: &Curve, k: f64) -> u64 {
     match (curve.medium, curve.body) {
-        (Medium::Continuum { .. }, Body::Bar) => {
-            k * curve.unit() <= pd_verify_reference::continuum::BAR_LIMIT
+        (Medium::Continuum { kernel, .. }, _) => {
+            42_u64.saturating_mul(panels(kernel, k * curve.unit()) as u64)
         }
-        (Medium::Continuum { .. }, _) => k * curve.unit() <= pd_verify_reference::continuum::PLANE_LIMIT,
-        _ => true,
+        (Medium::Lattice { lattice, .. }, body) => family_size(body, lattice),
+        (Medium::FiniteDifferences { .. }, _) => 1,
     }
-}
-
-/// Bonds, or quadrature points, that one evaluation visits.
-fn visits(curve: &Curve) -> u64 {
-    match (curve.lattice(), curve.body) {
-        (Some(lattice), Body::Bar) => half_family::<1>(lattice.m, lattice.volume_rule).len() as u64,
-        (Some(lattice), _) => half_family::<2>(lattice.m, lattice.volume_rule).len() as u64,
-        (None, _) if matches!(curve.medium, Medium::Continuum { .. }) => 42,
-        (None, _) => 1,
-    }
-}
-
-/// Steps of the search for the first crossing.
-const SEARCH: u32 = 512;
-
-/// First k at which |phase error| passes the threshold; 0 where long waves are beyond it already.
-fn first_beyond(prepared: &Prepared<'_>, curve: &Curve, threshold: f64) -> Option<f64> {
-    let end = search_end(curve);
-    let beyond = |k: f64| prepared.wave(k).is_some_and(|wave| (wave.phase(k) - 1.0).abs() > threshold);
-    if beyond(1e-6 * end) {
-        return Some(0.0);
-    }
-    let step = end / f64::from(SEARCH);
-    let found = (1..=SEARCH).find(|&n| beyond(f64::from(n) * step))?;
-    let (mut within, mut outside) = (f64::from(found - 1) * step, f64::from(found) * step);
-    loop {
-        let middle = 0.5 * (within + outside);
-        if middle <= within || middle >= outside {
-            return Some(outside);
-        }
-        if beyond(middle) { outside = middle } else { within = middle }
-    }
-}
-
-/// The zone's edge of a grid; in the continuum far beyond any crossing.
-fn search_end(curve: &Curve) -> f64 {
-    curve
-        .zone_edge()
-        .unwrap_or_else(|| 10.0 * curve.kernel().and_then(|k| k.p()).unwrap_or(1.0).max(1.0) / curve.unit())
-}
-
-/// How far the reference is from the threshold at k; infinite where a smaller k passes it already.
-fn judge_first(curve: &Curve, k: f64, threshold: f64) -> Option<f64> {
-    let error = |k: f64| curve.reference(k).map(|wave| (wave.phase(k) - 1.0).abs());
-    if k == 0.0 {
-        let long_wave = error(1e-6 * search_end(curve))?;
-        return Some(if long_wave > threshold { 0.0 } else { f64::INFINITY });
-    }
-    let before =
-        (1..=8).map(|n| k * f64::from(n) / 8.2).all(|k| error(k).is_some_and(|error| error <= threshold));
-    if before { Some((error(k)? - threshold).abs()) } else { Some(f64::INFINITY) }
 }

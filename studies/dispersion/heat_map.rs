@@ -2,7 +2,8 @@
 
 use super::curve::{Curve, Medium};
 use super::lattice_table::{lattice_row, lattice_table};
-use super::sweep::{LatticeSweep, Wrong, check_m, unusable};
+use super::moduli::sound_in_plane as sound;
+use super::sweep::{LatticeSweep, Wrong, check_sizes, unusable};
 use crate::input::Positive;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
@@ -42,8 +43,12 @@ impl HeatMapAsked {
             return Err(Wrong::new("nodes_per_wavelength", message, "take more than 2, for example 20"));
         }
         let lattices = self.lattice.lattices().map_err(|wrong| wrong.inside("lattice"))?;
-        for lattice in &lattices {
-            check_m(Body::PlaneStress, lattice.m).map_err(|wrong| wrong.inside("lattice"))?;
+        check_sizes(Body::PlaneStress, &lattices).map_err(|wrong| wrong.inside("lattice"))?;
+        let refused = |lattice: &Lattice| unusable(Body::PlaneStress, *lattice);
+        if lattices.iter().all(|lattice| refused(lattice).is_some())
+            && let Some(reason) = lattices.first().and_then(refused)
+        {
+            return Err(Wrong::new("lattice.m", reason.to_string(), reason.cure()));
         }
         Ok(HeatMap { title: title.to_owned(), nodes_per_wavelength: self.nodes_per_wavelength.0, lattices })
     }
@@ -106,9 +111,6 @@ impl HeatMap {
 
     /// Worst phase error by the code under judgement and by the reference; `None` where the lattice is unusable.
     fn cell(&self, subject: &dyn Subject, lattice: Lattice) -> (Option<f64>, Option<f64>) {
-        if unusable(Body::PlaneStress, lattice).is_some() {
-            return (None, None);
-        }
         let medium = Medium::Lattice { lattice, dx: 1.0 };
         let worst = |wave: &dyn Fn(&Curve) -> Option<Wave>| {
             let curves = [Branch::P, Branch::S].into_iter().flat_map(|branch| {
@@ -126,7 +128,10 @@ impl HeatMap {
             )
         };
         let mine = worst(&|curve| curve.prepare(subject).ok()?.wave(self.k_dx()));
-        (mine, worst(&|curve| curve.reference(self.k_dx())))
+        (
+            mine.filter(|_| subject.plane_stencil(lattice).is_ok()),
+            worst(&|curve| curve.reference(self.k_dx())).filter(|_| sound(lattice)),
+        )
     }
 
     /// One panel for each volume rule and calibration: kernels down, m across.
@@ -147,6 +152,9 @@ impl HeatMap {
         }
         let largest_shown = values.iter().flatten().copied().fold(0.0, f64::max).max(1e-3);
         let smallest_shown = values.iter().flatten().copied().fold(largest_shown, f64::min).max(1e-3);
+        // Cells of one value, or of one cell, need a scale around it.
+        let single = largest_shown < smallest_shown * (1.0 + 1e-9);
+        let spread = if single { 2.0 } else { 1.0 };
         let panels = kinds.into_iter().map(|(volume_rule, calibrated)| {
             let value = |kernel: Kernel, m: f64| {
                 let wanted = Lattice { kernel, m, volume_rule, calibrated };
@@ -160,7 +168,7 @@ impl HeatMap {
             HeatMapPanel::new(
                 ("m = δ/Δx", sizes.iter().map(f64::to_string).collect()),
                 ("kernel", kernels.iter().map(Kernel::to_string).collect()),
-                Axis::log("worst phase error (%)").range(smallest_shown, largest_shown),
+                Axis::log("worst phase error (%)").range(smallest_shown / spread, largest_shown * spread),
                 rows,
             )
             .titled(title)
@@ -171,7 +179,7 @@ impl HeatMap {
         let figure = Figure::new(
             place.case.clone(),
             title,
-            "Largest error of the phase speed over P and S waves at 0°, 15°, 30° and 45°; hatched where the lattice is refused.",
+            "Largest error of the phase speed over P and S waves at 0°, 15°, 30° and 45°, at a fixed number of nodes per wavelength, so that the horizon grows with m. Hatched where the lattice is refused.",
             first,
         );
         vec![panels.fold(figure, Figure::panel)]

@@ -2,6 +2,7 @@
 
 use super::curve::{Curve, Medium};
 use pd_verify::material::Body;
+use std::collections::HashSet;
 
 /// What can be said of a curve, in the order in which it is said; empty where it does not apply.
 struct Facets {
@@ -74,10 +75,10 @@ pub fn labels(curves: &[Curve]) -> Vec<String> {
     let facets: Vec<Facets> = curves.iter().map(Facets::of).collect();
     let shown = shown(curves, &facets);
     let mut labels: Vec<String> = facets.iter().map(|facets| label(facets, &shown)).collect();
-    for index in 1..labels.len() {
-        let twins = labels[..index].iter().filter(|label| **label == labels[index]).count();
-        if twins > 0 {
-            labels[index] = format!("{} ({})", labels[index], index + 1);
+    let mut seen = HashSet::new();
+    for (index, label) in labels.iter_mut().enumerate() {
+        if !seen.insert(label.clone()) {
+            *label = format!("{label} ({})", index + 1);
         }
     }
     labels

@@ -6,6 +6,7 @@
 pub mod continuum_oracles;
 pub mod curve;
 mod curve_report;
+mod curve_sweep;
 pub mod curves;
 pub mod heat_map;
 mod label;
@@ -18,10 +19,12 @@ pub mod misprints;
 pub mod moduli;
 pub mod polar;
 pub mod reflection;
+pub mod reflection_oracles;
 pub mod small_p;
 pub mod sweep;
 pub mod symmetry;
 pub mod time_step;
+mod trace;
 mod wavenumbers;
 mod words;
 
@@ -34,7 +37,7 @@ use serde_json::Value;
 use sweep::Wrong;
 
 /// The words a case may ask.
-pub const ASKS: [&str; 13] = [
+pub const ASKS: [&str; 14] = [
     "curves",
     "micromodulus",
     "continuum_oracles",
@@ -46,6 +49,7 @@ pub const ASKS: [&str; 13] = [
     "moduli",
     "time_step",
     "reflection",
+    "reflection_oracles",
     "polar",
     "heat_map",
 ];
@@ -134,6 +138,10 @@ pub fn read_case(asks: &str, written: &Written<'_>) -> Result<Box<dyn Question>,
         "moduli" => written.checked(written.read::<moduli::ModuliAsked>()?.check(title)),
         "time_step" => written.checked(written.read::<time_step::TimeStepAsked>()?.check(title)),
         "reflection" => written.checked(written.read::<reflection::ReflectionAsked>()?.check(title)),
+        "reflection_oracles" => {
+            written.read::<reflection_oracles::ReflectionOraclesAsked>()?;
+            written.checked(Ok(reflection_oracles::ReflectionOracles))
+        }
         "polar" => written.checked(written.read::<polar::PolarAsked>()?.check(title)),
         "heat_map" => written.checked(written.read::<heat_map::HeatMapAsked>()?.check(title)),
         MISPRINTS => {
@@ -169,6 +177,7 @@ pub fn case_schemas(generator: &mut SchemaGenerator) -> Vec<(&'static str, Schem
         ("moduli", of::<moduli::ModuliAsked>(generator)),
         ("time_step", of::<time_step::TimeStepAsked>(generator)),
         ("reflection", of::<reflection::ReflectionAsked>(generator)),
+        ("reflection_oracles", of::<reflection_oracles::ReflectionOraclesAsked>(generator)),
         ("polar", of::<polar::PolarAsked>(generator)),
         ("heat_map", of::<heat_map::HeatMapAsked>(generator)),
         (MISPRINTS, of::<misprints::MisprintsAsked>(generator)),

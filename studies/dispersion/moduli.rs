@@ -2,7 +2,7 @@
 
 use super::curve::reference_lattice;
 use super::lattice_table::{lattice_row, lattice_table};
-use super::sweep::{LatticeSweep, Wrong, check_m, unusable};
+use super::sweep::{LatticeSweep, Wrong, check_sizes, unusable};
 use super::words::BodyName;
 use crate::input::OneOrMany;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
@@ -38,8 +38,8 @@ impl ModuliAsked {
         let lattices = self.lattice.lattices().map_err(|wrong| wrong.inside("lattice"))?;
         let mut asked = Vec::new();
         for &body in &self.body.0 {
+            check_sizes(body.into(), &lattices).map_err(|wrong| wrong.inside("lattice"))?;
             for &lattice in &lattices {
-                check_m(body.into(), lattice.m).map_err(|wrong| wrong.inside("lattice"))?;
                 asked.push((body.into(), lattice));
             }
         }
@@ -72,6 +72,21 @@ impl Question for Moduli {
             .at_most(ErrorKind::Absolute, 1e-12)
             .because(Basis::Rounding, "sums of up to some thousand terms, and one 2×2 solution")
             .source("the same sums over an independently enumerated family, double-double arithmetic"),
+            claim(
+                place,
+                "speeds",
+                "largest error of long-wave speeds over the intended ones, P and S at 0° and 45°",
+            )
+            .at_most(ErrorKind::Absolute, 1e-12)
+            .because(Basis::Rounding, "square roots of the moduli")
+            .source("slope at k = 0 of the reference's dispersion relation"),
+            claim(place, "refusals", "lattices that only one of the two codes refuses")
+                .exactly()
+                .because(
+                    Basis::Theory,
+                    "a modulus below rounding of the intended one, or no shear, leaves nothing to run",
+                )
+                .source("moduli of the independent sums"),
             claim(place, "families", "families whose size differs from the reference's")
                 .exactly()
                 .because(Basis::Theory, "a count is exact")
@@ -83,6 +98,16 @@ impl Question for Moduli {
                     .at_most(ErrorKind::Absolute, 1e-12)
                     .because(Basis::Rounding, "calibration solves for exactly these moduli")
                     .source("definition: C11 and C12 = C66 as intended"),
+            );
+            claims.push(
+                claim(
+                    place,
+                    "factors",
+                    "largest error of α and β over the larger of the factors on axes and diagonals",
+                )
+                .at_most(ErrorKind::Relative, 1e-12)
+                .because(Basis::Rounding, "one 2×2 solution with positive sums")
+                .source("α and β solved in double-double arithmetic"),
             );
         }
         claims
@@ -126,6 +151,16 @@ calibration: bonds times α + β cos 4θ, α and β from C₁₁ and C₁₂ as 
         let note =
             format!("{used} lattices, {refused} more refused by name, {negative} bonds with negative weight");
         let error = largest(usable().map(|(body, lattice, found)| error_of_moduli(body, lattice, found)));
+        let speeds =
+            largest(usable().map(|(body, lattice, found)| error_of_speeds(body, lattice, found.after)));
+        let factors =
+            largest(usable().filter_map(|(body, lattice, found)| error_of_factors(body, lattice, found)));
+        let disputed = self
+            .asked
+            .iter()
+            .zip(&measured)
+            .filter(|((body, lattice), found)| found.is_ok() != sound(*body, *lattice))
+            .count();
         let wrong_sizes =
             usable().filter(|(body, lattice, found)| found.neighbours != exact_size(*body, *lattice)).count();
         let calibrated = usable().filter(|(_, lattice, _)| lattice.calibrated);
@@ -135,6 +170,9 @@ calibration: bonds times α + β cos 4θ, α and β from C₁₁ and C₁₂ as 
         }));
         let evidence = vec![
             ("moduli".into(), error_of(error, note.clone())),
+            ("speeds".into(), error_of(speeds, note.clone())),
+            ("factors".into(), error_of(factors, note.clone())),
+            ("refusals".into(), crate::question::value_of(Some(disputed as f64), Some(0.0), note.clone())),
             ("families".into(), crate::question::value_of(Some(wrong_sizes as f64), Some(0.0), note.clone())),
             ("calibrated".into(), error_of(residual, note)),
         ];
@@ -182,6 +220,57 @@ fn error_of_moduli(body: Body, lattice: Lattice, found: &Measured) -> f64 {
         shear.iter().fold((found.c11 - exact[0]).abs(), |most, d| most.max(d.abs()))
     };
     difference(found.before, exact(false)).max(difference(found.after, exact(lattice.calibrated)))
+}
+
+/// Whether the reference finds the moduli of a lattice above rounding.
+fn sound(body: Body, lattice: Lattice) -> bool {
+    match body {
+        Body::Bar => {
+            let of = reference::Lattice { calibrated: false, ..reference_lattice(lattice) };
+            reference::lattice::bar_modulus(of) >= f64::EPSILON
+        }
+        Body::PlaneStress | Body::PlaneStrain => sound_in_plane(lattice),
+    }
+}
+
+/// The same in the plane.
+pub fn sound_in_plane(lattice: Lattice) -> bool {
+    let of = reference::Lattice { calibrated: false, ..reference_lattice(lattice) };
+    let moduli = reference::lattice::plane_moduli(of);
+    moduli.c11.min(moduli.c66) >= f64::EPSILON
+}
+
+/// Long-wave speeds over the intended ones: P at 0° and 45°, S at 0° and 45°.
+///
+/// Along a diagonal ρc² = (C₁₁ + C₁₂ + 2C₆₆)/2 and (C₁₁ − C₁₂)/2, with C₁₁ = 3C₁₂ = 3C₆₆ intended.
+fn speeds(moduli: LatticeModuli) -> [f64; 4] {
+    let LatticeModuli { c11, c12 } = moduli;
+    [c11, 0.5 * (c11 + c12), c12, 0.5 * (3.0 * c11 - c12)].map(f64::sqrt)
+}
+
+fn error_of_speeds(body: Body, lattice: Lattice, moduli: LatticeModuli) -> f64 {
+    let of = reference_lattice(lattice);
+    if body == Body::Bar {
+        return (moduli.c11.sqrt() - reference::lattice::bar(of, 0.0).slope).abs();
+    }
+    let [p_0, p_45, s_0, s_45] = speeds(moduli);
+    let [on_axis, diagonal] =
+        [0.0, std::f64::consts::FRAC_PI_4].map(|angle| reference::lattice::plane(of, 0.0, angle));
+    let exact = [on_axis[0].slope, diagonal[0].slope, on_axis[1].slope, diagonal[1].slope];
+    [p_0, p_45, s_0, s_45].iter().zip(exact).map(|(mine, exact)| (mine - exact).abs()).fold(0.0, f64::max)
+}
+
+fn error_of_factors(body: Body, lattice: Lattice, found: &Measured) -> Option<f64> {
+    let mine = found.calibration?;
+    let of = reference_lattice(lattice);
+    if body == Body::Bar {
+        let modulus = reference::lattice::bar_modulus(reference::Lattice { calibrated: false, ..of });
+        return Some((mine.alpha * modulus - 1.0).abs());
+    }
+    let (alpha, beta) = reference::lattice::calibration(of)?;
+    // α + β may be a small difference of large numbers; it is judged against the larger of the two factors.
+    let scale = (alpha + beta).abs().max((alpha - beta).abs());
+    Some((mine.alpha - alpha).abs().max((mine.beta - beta).abs()) / scale)
 }
 
 impl Moduli {
@@ -290,8 +379,7 @@ const MODULI: [(&str, Reader); 2] = [("C11", |moduli| moduli.c11), ("C66", |modu
 fn cells(body: Body, found: &Measured) -> Vec<Cell> {
     let plane = body != Body::Bar;
     let LatticeModuli { c11, c12 } = found.after;
-    // Along a diagonal ρc² = (C11 + C12 + 2C66)/2 and (C11 − C12)/2, with C11 = 3C12 = 3C66 intended.
-    let (p_45, s_45) = ((c11 + c12) / 2.0, (3.0 * c11 - c12) / 2.0);
+    let [p_0, p_45, s_0, s_45] = speeds(found.after);
     vec![
         found.neighbours.into(),
         found.before.c11.into(),
@@ -302,10 +390,10 @@ fn cells(body: Body, found: &Measured) -> Vec<Cell> {
         plane.then(|| found.after.zener_ratio()).into(),
         found.calibration.map(|calibration| calibration.alpha).into(),
         found.calibration.filter(|_| plane).map(|calibration| calibration.beta).into(),
-        c11.sqrt().into(),
-        plane.then(|| p_45.sqrt()).into(),
-        plane.then(|| c12.sqrt()).into(),
-        plane.then(|| s_45.sqrt()).into(),
+        p_0.into(),
+        plane.then_some(p_45).into(),
+        plane.then_some(s_0).into(),
+        plane.then_some(s_45).into(),
         found.negative_bonds.into(),
         Cell::Empty,
     ]

@@ -3,7 +3,6 @@
 use super::curve::{Curve, Medium};
 use super::label::labels;
 use super::sweep::{LatticeSweep, Wrong};
-use super::symmetry::all_usable;
 use crate::input::Positive;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
@@ -43,8 +42,7 @@ impl PolarAsked {
                 format!("{} nodes per wavelength are no wave on a grid", self.nodes_per_wavelength.0);
             return Err(Wrong::new("nodes_per_wavelength", message, "take more than 2, for example 10"));
         }
-        let usable = self.lattice.lattices().and_then(|all| all_usable(Body::PlaneStress, all));
-        let lattices = usable.map_err(|wrong| wrong.inside("lattice"))?;
+        let lattices = self.lattice.usable(Body::PlaneStress).map_err(|wrong| wrong.inside("lattice"))?;
         let mut media: Vec<Medium> =
             lattices.into_iter().map(|lattice| Medium::Lattice { lattice, dx: 1.0 }).collect();
         if self.finite_differences == Some(true) {
@@ -109,15 +107,22 @@ impl Question for Polar {
             panels[usize::from(*branch == Branch::S)].push(Series::line(name.clone(), points.clone()));
         }
         let [p, s] = panels;
-        let radial = || Axis::linear("phase-speed error (%)").including(0.0);
+        let errors = || {
+            traced
+                .iter()
+                .flat_map(|(points, _)| points)
+                .map(|point| point.1)
+                .filter(|error| error.is_finite())
+        };
+        let radial = || errors().fold(Axis::linear("phase-speed error (%)").including(0.0), Axis::including);
         let title = format!("{}, {} nodes per wavelength", self.title, self.nodes_per_wavelength);
         let figure = Figure::new(
             place.case.clone(),
             title,
             "Error of the phase speed against that of the local continuum, by direction of travel; the heavy circle is zero.",
-            PolarPanel::new(radial(), p).titled("P waves"),
+            PolarPanel::new(radial(), p).titled("P waves (heavy circle: no error)"),
         )
-        .panel(PolarPanel::new(radial(), s).titled("S waves"))
+        .panel(PolarPanel::new(radial(), s).titled("S waves (heavy circle: no error)"))
         .columns(2);
         let error = largest(traced.iter().map(|(_, error)| *error));
         let evidence = vec![("phase_speed".into(), error_of(error, format!("{} curves", traced.len())))];

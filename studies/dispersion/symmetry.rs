@@ -1,6 +1,6 @@
 //! `asks = "symmetry"`: lattices are periodic in the Brillouin zone, even, and have the symmetry of the square.
 
-use super::sweep::{LatticeSweep, Wrong, check_m, unusable};
+use super::sweep::{LatticeSweep, Wrong};
 use super::words::BodyName;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
 use crate::subject::Subject;
@@ -28,22 +28,11 @@ pub struct Symmetry {
     lattices: Vec<Lattice>,
 }
 
-/// Usable lattices of a sweep; the first unusable one is an error.
-pub fn all_usable(body: Body, lattices: Vec<Lattice>) -> Result<Vec<Lattice>, Wrong> {
-    for &lattice in &lattices {
-        check_m(body, lattice.m)?;
-        if let Some(reason) = unusable(body, lattice) {
-            return Err(Wrong::new("m", reason.to_string(), reason.cure()));
-        }
-    }
-    Ok(lattices)
-}
-
 impl SymmetryAsked {
     pub fn check(&self) -> Result<Symmetry, Wrong> {
         let body = self.body.into();
-        let lattices = self.lattice.lattices().and_then(|all| all_usable(body, all));
-        Ok(Symmetry { body, lattices: lattices.map_err(|wrong| wrong.inside("lattice"))? })
+        let lattices = self.lattice.usable(body).map_err(|wrong| wrong.inside("lattice"))?;
+        Ok(Symmetry { body, lattices })
     }
 }
 
@@ -89,8 +78,7 @@ impl Question for Symmetry {
         let worst = |f: fn(&Found) -> f64| {
             error_of(largest(found.iter().map(f)), format!("{} lattices", found.len()))
         };
-        let growing = (found.len() == self.lattices.len())
-            .then(|| found.iter().map(|f| f.growing).sum::<usize>() as f64);
+        let growing = Some(found.iter().map(|f| f.growing).sum::<usize>() as f64);
         let evidence = vec![
             ("periodic".into(), worst(|f| f.periodic)),
             ("even".into(), worst(|f| f.even)),
@@ -102,7 +90,7 @@ impl Question for Symmetry {
 }
 
 /// Largest differences of ω² over its largest value, and the number of growing waves.
-#[derive(Default)]
+#[derive(Default, Clone, Copy)]
 struct Found {
     periodic: f64,
     even: f64,

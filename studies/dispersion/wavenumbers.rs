@@ -6,6 +6,9 @@ use crate::input::Positive;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+/// Quadrature takes a panel for each wavelength in the horizon.
+const MAX_K_HORIZON: f64 = 100_000.0;
+
 /// Which wavenumbers are drawn: a range, or a list.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -69,9 +72,40 @@ impl Wavenumbers {
         }
     }
 
+    /// Refuses what a curve cannot be drawn at: a range beyond the zone, more waves in the horizon than are resolved.
+    pub fn check_for(&self, curve: &Curve) -> Result<(), Wrong> {
+        if let (Some(from), Some(edge)) = (self.from_per_m, curve.zone_edge())
+            && from.0 >= edge
+        {
+            let message = format!("the range begins beyond the zone's edge, {edge} per m");
+            return Err(Wrong::new("from_per_m", message, "start below the edge π/Δx, or refine Δx"));
+        }
+        let values = self.values_per_m.iter().flatten().chain(&self.to_per_m);
+        let most = values.map(|k| k.0).fold(0.0, f64::max) * curve.horizon().unwrap_or(0.0);
+        if curve.zone_edge().is_none() && most > MAX_K_HORIZON {
+            let waves = most / std::f64::consts::TAU;
+            let message = format!("{waves:.3e} wavelengths in the horizon are more than are resolved");
+            return Err(Wrong::new(
+                "",
+                message,
+                format!("take a smaller k or horizon: kδ up to {MAX_K_HORIZON}"),
+            ));
+        }
+        Ok(())
+    }
+
     /// Points per curve, at most.
     pub fn count(&self) -> u64 {
         self.values_per_m.as_ref().map_or_else(|| self.count.unwrap_or(200), |values| values.len() as u64)
+    }
+
+    /// The largest wavenumber of a curve.
+    pub fn largest(&self, curve: &Curve) -> f64 {
+        match (&self.values_per_m, &self.to_per_m) {
+            (Some(values), _) => values.iter().map(|k| k.0).fold(0.0, f64::max),
+            (None, Some(to)) => curve.zone_edge().map_or(to.0, |edge| edge.min(to.0)),
+            (None, None) => 0.0,
+        }
     }
 
     /// The wavenumbers of a curve: a range ends at the zone's edge, with a point on it.

@@ -62,6 +62,17 @@ pub enum SchemeName {
 }
 
 impl SchemeName {
+    /// The word in study files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Continuum => "continuum",
+            Self::Lattice => "lattice",
+            Self::LatticeLeapfrog => "lattice_leapfrog",
+            Self::Fd => "fd",
+            Self::FdLeapfrog => "fd_leapfrog",
+        }
+    }
+
     /// Whether it has a kernel and a horizon.
     pub fn peridynamic(self) -> bool {
         !matches!(self, Self::Fd | Self::FdLeapfrog)

@@ -166,7 +166,10 @@ impl Document {
 
     /// A refusal of the value at `path`.
     pub fn refuse(&self, path: &str, message: impl Into<String>) -> Refusal {
-        Refusal::new(message).at(&self.name, &self.text, self.place(path))
+        // The line in the file may be right: what is wrong can stand on the command line.
+        let changed = self.settings.join(", ");
+        let note = if changed.is_empty() { changed } else { format!(" (changed by --set {changed})") };
+        Refusal::new(message.into() + &note).at(&self.name, &self.text, self.place(path))
     }
 
     fn refuse_span(&self, message: String, span: Range<usize>) -> Refusal {
@@ -200,11 +203,13 @@ impl Document {
                 let own: &[&str] = if owner == table { common } else { &[] };
                 let allowed: Vec<&str> = allowed.iter().chain(own).copied().collect();
                 let place = join(if owner.is_empty() { table } else { owner }, wrong);
-                self.refuse(&place, format!("unknown key `{wrong}`")).help(did_you_mean(wrong, &allowed))
+                let written = self.written(&place).unwrap_or(wrong);
+                let help = did_you_mean(wrong, &allowed, |near| like(near, written));
+                self.refuse(&place, format!("unknown key `{written}`")).help(help)
             }
             (Some("unknown"), Some("variant"), Some((wrong, allowed))) => {
                 let message = format!("{at}: `{wrong}` is not one of the words known here");
-                self.refuse(at, message).help(did_you_mean(wrong, allowed))
+                self.refuse(at, message).help(did_you_mean(wrong, allowed, str::to_owned))
             }
             (Some("missing"), _, Some((missing, _))) => {
                 let owner = if at.is_empty() { self.name.as_str() } else { at };
@@ -216,9 +221,16 @@ impl Document {
             }
             _ => {
                 let subject = if at.is_empty() { self.name.as_str() } else { at };
-                self.refuse(at, format!("{subject}: {words}"))
+                let help = "see `pd-verify schema` for what each key takes";
+                self.refuse(at, format!("{subject}: {}", plain(words))).help(help)
             }
         }
+    }
+
+    /// A key as it stands in the file, unit and all.
+    fn written(&self, path: &str) -> Option<&str> {
+        let text = self.text.get(self.places.get(path)?.clone())?;
+        Some(text.split(['=', ' ', '\t']).next().unwrap_or(text).trim_matches(['"', '\'']))
     }
 
     /// Keys written directly in a table.
@@ -229,12 +241,47 @@ impl Document {
     }
 }
 
-fn did_you_mean(wrong: &str, allowed: &[&str]) -> String {
+fn did_you_mean(wrong: &str, allowed: &[&str], as_written: impl Fn(&str) -> String) -> String {
     let listed = format!("allowed: {}", allowed.join(", "));
     match nearest(wrong, allowed.iter().copied()) {
-        Some(word) => format!("did you mean `{word}`? {listed}"),
+        Some(word) => format!("did you mean `{}`? {listed}", as_written(word)),
         None => listed,
     }
+}
+
+/// A key in the unit of another: `youngs_modulus_pa` like `young_modulus_gpa` is `youngs_modulus_gpa`.
+fn like(key: &str, written: &str) -> String {
+    let unit = written.rfind('_').map_or("", |at| &written[at..]);
+    let stem = key.rfind('_').map_or(key, |at| &key[..at]);
+    let other = format!("{stem}{unit}");
+    if to_si(&other).0 == key { other } else { key.to_owned() }
+}
+
+/// serde's words without the names of Rust.
+fn plain(words: &str) -> String {
+    let (found, expected) = words.split_once(", expected ").unwrap_or((words, ""));
+    if expected.is_empty() {
+        return words.to_owned();
+    }
+    let expected = match expected.split(' ').next().unwrap_or_default() {
+        "f64" => "a number",
+        "u64" => "a whole number, 0 or larger",
+        "enum" => "a word",
+        "struct" => "a table",
+        "a" if expected == "a string" => "a text",
+        "a" if expected == "a boolean" => "true or false",
+        "a" if expected == "a sequence" => "a list",
+        _ => expected,
+    };
+    let found = found.trim_start_matches("invalid type: ").trim_start_matches("invalid value: ");
+    let found = found.replace("floating point", "the number").replace("integer", "the number");
+    let found = found.replace("string", "the text").replace("boolean", "the value");
+    let found = match found.as_str() {
+        "sequence" => "a list".to_owned(),
+        "map" => "a table".to_owned(),
+        _ => found,
+    };
+    format!("{found} is not allowed, {expected} is needed")
 }
 
 fn join(path: &str, key: &str) -> String {

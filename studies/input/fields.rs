@@ -14,11 +14,15 @@ pub struct Positive(pub f64);
 impl<'de> Deserialize<'de> for Positive {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let value = f64::deserialize(deserializer)?;
-        if value.is_finite() && value > 0.0 {
-            Ok(Self(value))
-        } else {
-            Err(de::Error::custom(format!("{value} is not allowed, a positive number is needed")))
+        if !(value.is_finite() && value > 0.0) {
+            return Err(de::Error::custom(format!("{value} is not allowed, a positive number is needed")));
         }
+        if !(1e-30..=1e30).contains(&value) {
+            return Err(de::Error::custom(format!(
+                "{value:e} is no quantity: it is not between 1e-30 and 1e30"
+            )));
+        }
+        Ok(Self(value))
     }
 }
 
@@ -122,9 +126,9 @@ mod tests {
 
     #[test]
     fn only_positive_numbers_are_positive() {
-        for value in [json!(0), json!(-1e-300), json!("1")] {
+        for value in [json!(0), json!(-1e-300), json!(1e-31), json!(1e31), json!("1")] {
             assert!(from_value::<Positive>(value).is_err());
         }
-        assert_eq!(from_value::<Positive>(json!(1e-300)).unwrap(), Positive(1e-300));
+        assert_eq!(from_value::<Positive>(json!(1e-30)).unwrap(), Positive(1e-30));
     }
 }

@@ -30,10 +30,35 @@ impl Refusal {
 
     /// Marks the place in the named text.
     pub fn at(mut self, name: &str, text: &str, place: Option<Range<usize>>) -> Self {
-        self.0.source = Some(NamedSource::new(name, text.to_owned()));
-        self.0.place = place;
+        match place {
+            Some(place) if longest_line(text, &place) <= LONGEST_LINE => {
+                self.0.source = Some(NamedSource::new(name, text.to_owned()));
+                self.0.place = Some(place);
+            }
+            // A place without its text: nobody reads a line of a thousand words.
+            Some(place) => {
+                let line = line_of(text, &place);
+                self.0.message = format!("{name}:{line}: {}", self.0.message);
+            }
+            None if self.0.message.contains(name) => {}
+            None => self.0.message = format!("{name}: {}", self.0.message),
+        }
         self
     }
+}
+
+/// Lines longer than this are not shown.
+const LONGEST_LINE: usize = 400;
+
+/// The line of a place, counted from 1.
+fn line_of(text: &str, place: &Range<usize>) -> usize {
+    let before = &text.as_bytes()[..place.start.min(text.len())];
+    1 + before.iter().filter(|byte| **byte == b'\n').count()
+}
+
+/// The longest of the lines that a message would show: the one of the place and its neighbours.
+fn longest_line(text: &str, place: &Range<usize>) -> usize {
+    text.lines().skip(line_of(text, place).saturating_sub(2)).take(3).map(str::len).max().unwrap_or(0)
 }
 
 impl fmt::Display for Refusal {
@@ -64,7 +89,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     let word = word.to_lowercase();
     candidates
         .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(&word, candidate), candidate))
+        .map(|candidate| (strsim::jaro_winkler(&word, &candidate.to_lowercase()), candidate))
         .filter(|(likeness, _)| *likeness > 0.75)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, candidate)| candidate)

@@ -35,10 +35,14 @@ impl Setting {
         let last = path.pop().expect("split gives at least one part");
         let value = value.trim();
         let text = format!("{last} = {value}");
-        let text =
-            if DeTable::parse(&text).is_ok() { text } else { format!("{last} = {}", Value::from(value)) };
+        // A bare word is text; what begins like a list, a table or a text must be one.
+        let bare = DeTable::parse(&text).is_err() && !value.starts_with(['[', '{', '"', '\'']);
+        let text = if bare { format!("{last} = {}", Value::from(value)) } else { text };
         let document = super::Document::parse("--set", &text)?;
         let (last, _) = to_si(&last);
+        if document.whole().as_object().is_none_or(|table| table.len() != 1) {
+            return Err(wrong());
+        }
         let value = document.get(&last).cloned().ok_or_else(wrong)?;
         path.push(last);
         Ok(Self { path, value, written: written.to_owned() })

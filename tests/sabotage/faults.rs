@@ -1,8 +1,9 @@
 //! The wrong ingredients, one each.
 
 use crate::subject::Subject;
+use nalgebra::Complex;
 use pd_verify::dispersion::bar::BarDispersion;
-use pd_verify::dispersion::joint::{self, Chain, Reflection};
+use pd_verify::dispersion::joint::{self, Chain};
 use pd_verify::dispersion::plane::PlaneDispersion;
 use pd_verify::dispersion::timestep::{self, TimeStep};
 use pd_verify::dispersion::{Branch, Wave, continuum, finite_differences, leapfrog};
@@ -35,6 +36,8 @@ pub fn all() -> Vec<(&'static str, Box<dyn Subject + Send>)> {
         ("the row sum counts the family twice", Box::new(TwiceRowSum)),
         ("reflections are one per cent too large", Box::new(Reflects(1.01))),
         ("reflections are eight times too large", Box::new(Reflects(0.12 / 0.0151))),
+        ("impedances are ten per cent off", Box::new(WrongImpedances)),
+        ("sound lattices are refused", Box::new(RefusesSound)),
         ("the published coefficient is replaced by the exact one", Box::new(ExactAsPublished)),
         ("the Gaussian factor is taken as printed", Box::new(PrintedGaussianFactor)),
         ("the micromodulus is two thirds", Box::new(Micromodulus(2.0 / 3.0))),
@@ -259,9 +262,32 @@ impl Subject for TwiceRowSum {
 struct Reflects(f64);
 
 impl Subject for Reflects {
-    fn reflection(&self, left: &Chain, right: &Chain, theta: f64) -> Option<Reflection> {
-        let found = joint::exact(left, right, theta)?;
-        Some(Reflection { coefficient: found.coefficient * self.0, ..found })
+    fn reflection(&self, left: &Chain, right: &Chain, theta: f64) -> Option<Complex<f64>> {
+        joint::exact(left, right, theta).map(|found| found * self.0)
+    }
+}
+
+struct WrongImpedances;
+
+impl Subject for WrongImpedances {
+    fn published_reflection(&self, left: &Chain, right: &Chain, theta: f64) -> f64 {
+        1.1 * joint::impedances_at_equal_wavenumber(left, right, theta)
+    }
+
+    fn reflection_at_equal_frequency(&self, left: &Chain, right: &Chain, theta: f64) -> Option<f64> {
+        joint::impedances_at_equal_frequency(left, right, theta).map(|r| 1.1 * r)
+    }
+}
+
+struct RefusesSound;
+
+impl Subject for RefusesSound {
+    fn bar_stencil(&self, lattice: Lattice) -> Result<Stencil<1>, Unusable> {
+        if lattice.m == 3.0 { Err(Unusable::NoShear { lattice }) } else { Stencil::new(lattice) }
+    }
+
+    fn plane_stencil(&self, lattice: Lattice) -> Result<Stencil<2>, Unusable> {
+        if lattice.m == 3.0 { Err(Unusable::NoShear { lattice }) } else { Stencil::new(lattice) }
     }
 }
 
@@ -269,7 +295,7 @@ struct ExactAsPublished;
 
 impl Subject for ExactAsPublished {
     fn published_reflection(&self, left: &Chain, right: &Chain, theta: f64) -> f64 {
-        joint::exact(left, right, theta).map_or(f64::NAN, |found| found.amplitude())
+        joint::exact(left, right, theta).map_or(f64::NAN, |found| found.norm())
     }
 }
 

@@ -1,0 +1,12 @@
+//! The program as its users meet it: exit codes, messages, and the files it writes or leaves alone.
+
+mod commands;
+#[cfg(unix)]
+mod interruption;
+mod limits;
+mod place;
+mod refusals;
+mod results;
+mod settings;
+mod studies;
+mod support;
