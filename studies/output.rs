@@ -11,8 +11,8 @@ const MARK: &str = "manifest.json";
 /// Files in the root that speak of a run, and how ours can be told from somebody else's.
 const ROOT_FILES: [(&str, &str); 4] = [
     ("index.html", "pd-verify"),
-    ("summary.md", "# Verification of peridynamics\n"),
-    ("junit.xml", "<testsuites name=\"Verification of peridynamics\""),
+    ("summary.md", "# Verification of peridynamics"),
+    ("junit.xml", "<testsuites name=\"Verification of peridynamics"),
     ("verdicts.csv", "claim,study,case,quantity,"),
 ];
 

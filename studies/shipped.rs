@@ -65,6 +65,16 @@ mod tests {
     }
 
     #[test]
+    fn the_quick_profile_stays_quick() {
+        // 5 s on two cores: some 10⁸ bond visits a second, and 10⁴ answers of the reference.
+        let mut total = crate::question::Effort::default();
+        for study in shipped(None, &[]).unwrap() {
+            total += study.effort(crate::question::Profile::Quick);
+        }
+        assert!(total.bond_evaluations < 100_000_000 && total.reference_evaluations < 40_000, "{total:?}");
+    }
+
+    #[test]
     fn every_claim_gives_its_reason_and_its_reference() {
         let studies = shipped(None, &[]).unwrap();
         for claim in studies.iter().flat_map(|study| &study.cases).flat_map(|case| case.claims()) {

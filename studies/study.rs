@@ -1,7 +1,7 @@
 //! A study: a question with a file. Its header, its cases, and the checks that need no computation.
 
 use crate::dispersion::{COMMON_KEYS, TABLES, Written, read_case};
-use crate::input::{Document, Positive, Refusal, Setting};
+use crate::input::{Document, Positive, Refusal, Setting, other_units};
 use crate::question::{Effort, Place, Profile, Question};
 use pd_verify::claim::Claim;
 use pd_verify::material::Material;
@@ -260,7 +260,44 @@ pub fn schema() -> Value {
     header["properties"]["format"] =
         serde_json::json!({ "const": FORMAT, "description": "Version of the format." });
     header["$defs"] = Value::Object(generator.take_definitions(true).into_iter().collect());
+    with_units(&mut header);
     header
+}
+
+/// Adds every key's forms in other units, and lets any of them stand for a required one.
+fn with_units(schema: &mut Value) {
+    let required: Vec<String> = schema["required"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(|key| key.as_str().map(str::to_owned))
+        .collect();
+    let mut choices = Vec::new();
+    if let Some(properties) = schema.get_mut("properties").and_then(Value::as_object_mut) {
+        for (key, value) in properties.clone() {
+            let forms = other_units(&key);
+            if !forms.is_empty() && required.contains(&key) {
+                let any: Vec<Value> = forms
+                    .iter()
+                    .chain([&key])
+                    .map(|form| serde_json::json!({ "required": [form] }))
+                    .collect();
+                choices.push((key, serde_json::json!({ "anyOf": any })));
+            }
+            properties.extend(forms.into_iter().map(|form| (form, value.clone())));
+        }
+    }
+    if !choices.is_empty() {
+        let kept: Vec<&String> =
+            required.iter().filter(|key| choices.iter().all(|(other, _)| other != *key)).collect();
+        schema["required"] = serde_json::json!(kept);
+        schema["allOf"] = choices.into_iter().map(|(_, choice)| choice).collect();
+    }
+    match schema {
+        Value::Object(table) => table.values_mut().for_each(with_units),
+        Value::Array(items) => items.iter_mut().for_each(with_units),
+        _ => {}
+    }
 }
 
 /// A case of one kind: its own keys and those of every case.

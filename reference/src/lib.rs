@@ -9,6 +9,17 @@
 //! Everything is dimensionless unless a name carries a unit. v = √(E/ρ) is the speed in a bar, c_d and c_s are
 //! the dilatational and shear speeds of the plane; a bond-based plane has C12 = C66 = C11/3 in plane stress
 //! (ν = 1/3) and in plane strain (ν = 1/4) alike, so the same dimensionless answers serve both.
+//!
+//! ```
+//! use pd_verify_reference::{Kernel, Lattice, VolumeRule, continuum, lattice};
+//!
+//! // A wave of the constant kernel at kδ = 1, in the continuum and on the lattice with m = 3.
+//! let wave = continuum::bar(Kernel::Constant, 1.0).expect("within the range of the answer");
+//! assert_eq!(wave.omega, 0.97941154169340832);
+//! let m3 = Lattice { kernel: Kernel::Constant, m: 3.0, rule: VolumeRule::Linear, calibrated: false };
+//! let on_lattice = 3.0 * lattice::bar(m3, 1.0 / 3.0).omega;
+//! assert!((on_lattice / (1.0 - (1.0 + 1.0 / 9.0) / 48.0) - 1.0).abs() < 1e-3);
+//! ```
 #![warn(missing_docs)]
 
 pub mod cell;

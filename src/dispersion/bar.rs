@@ -34,11 +34,24 @@ impl BarDispersion {
         for bond in &stencil.bonds {
             weights[bond.offset[0] as usize - 1] = bond.weight;
         }
+        Self::of_weights(weights)
+    }
+
+    /// The relation of a chain with these w_j, j = 1, 2, …; bonds of no weight at the far end do not reach.
+    pub fn of_weights(mut weights: Vec<f64>) -> Self {
+        while weights.last() == Some(&0.0) {
+            weights.pop();
+        }
         let alternating: Vec<_> =
             weights.iter().enumerate().map(|(n, &w)| if n % 2 == 0 { -w } else { w }).collect();
         let edge = 4.0 * weights.iter().step_by(2).sum::<f64>();
         let long_wave = weights.iter().zip(1..).map(|(w, j)| w * f64::from(j * j)).sum::<f64>().sqrt();
         Self { weights, alternating, edge, long_wave }
+    }
+
+    /// w_j for j = 1, 2, …
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
     }
 
     /// (ωΔx/v)² at θ.

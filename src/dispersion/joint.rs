@@ -5,50 +5,35 @@
 //! the modes zⁿ of its own stencil that leave the joint or fade from it. A node of reach r feels the other side
 //! r nodes deep, so the two fields, each continued by its own modes, agree on nodes −r_right … r_left − 1.
 
+use super::bar::BarDispersion;
 use crate::lattice::Stencil;
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::PI;
 
-/// A half-infinite chain: w_j of (ωΔx/v)² = Σ w_j 4 sin²(jθ/2).
-#[derive(Debug, Clone, PartialEq)]
+/// A half-infinite chain.
+#[derive(Debug, Clone)]
 pub struct Chain {
-    weights: Vec<f64>,
+    relation: BarDispersion,
 }
 
 impl Chain {
     /// Finite differences: one spring.
     pub fn finite_differences() -> Self {
-        Self { weights: vec![1.0] }
+        Self { relation: BarDispersion::of_weights(vec![1.0]) }
     }
 
-    /// A peridynamic lattice; bonds of no weight at the far end do not reach.
+    /// A peridynamic lattice.
     pub fn peridynamic(stencil: &Stencil<1>) -> Self {
-        let mut weights = vec![0.0; stencil.reach()];
-        for bond in &stencil.bonds {
-            weights[bond.offset[0] as usize - 1] = bond.weight;
-        }
-        while weights.last() == Some(&0.0) {
-            weights.pop();
-        }
-        Self { weights }
+        Self { relation: BarDispersion::new(stencil) }
     }
 
     /// ωΔx/v at θ = kΔx.
     pub fn frequency(&self, theta: f64) -> f64 {
-        self.weights
-            .iter()
-            .zip(1..)
-            .map(|(w, j)| w * 4.0 * libm::sin(0.5 * f64::from(j) * theta).powi(2))
-            .sum::<f64>()
-            .sqrt()
+        self.relation.wave(theta).omega
     }
 
-    fn slope(&self, theta: f64) -> f64 {
-        self.weights
-            .iter()
-            .zip(1..)
-            .map(|(w, j)| w * 2.0 * f64::from(j) * libm::sin(f64::from(j) * theta))
-            .sum()
+    fn group(&self, theta: f64) -> f64 {
+        self.relation.wave(theta).group
     }
 
     /// All modes zⁿ of frequency ωΔx/v that leave towards +∞ or fade there.
@@ -69,11 +54,12 @@ impl Chain {
 
     /// Coefficients in powers of c, lowest first.
     fn polynomial(&self, omega: f64) -> Vec<f64> {
-        let degree = self.weights.len();
+        let weights = self.relation.weights();
+        let degree = weights.len();
         let mut total = vec![0.0; degree + 1];
         total[0] = -omega * omega;
         let (mut previous, mut chebyshev) = (vec![1.0], vec![0.0, 1.0]);
-        for &weight in &self.weights {
+        for &weight in weights {
             total[0] += 2.0 * weight;
             for (power, coefficient) in chebyshev.iter().enumerate() {
                 total[power] -= 2.0 * weight * coefficient;
@@ -93,7 +79,7 @@ impl Chain {
     fn mode(&self, cosine: Complex<f64>) -> Mode {
         if cosine.im.abs() < 1e-11 && cosine.re.abs() <= 1.0 {
             let theta = libm::acos(cosine.re);
-            let towards = self.slope(theta).signum() * theta;
+            let towards = self.group(theta).signum() * theta;
             return Mode { z: Complex::from_polar(1.0, towards), travelling: Some(towards) };
         }
         let root = (cosine * cosine - 1.0).sqrt();
@@ -148,7 +134,7 @@ fn longest_wave(modes: &[Mode]) -> Option<f64> {
 ///
 /// `None` where the two fields cannot be matched: at a band edge, or where θ travels to the left.
 pub fn exact(left: &Chain, right: &Chain, theta: f64) -> Option<Complex<f64>> {
-    if !(theta > 0.0 && theta < PI) || left.slope(theta) <= 0.0 {
+    if !(theta > 0.0 && theta < PI) || left.group(theta) <= 0.0 {
         return None;
     }
     let omega = left.frequency(theta);
@@ -214,7 +200,8 @@ mod tests {
     #[test]
     fn two_springs_of_different_stiffness_reflect_by_hand() {
         // Left w = 1, right w = 4: continuity of u₋₁, u₀ continued; solved by hand for θ = 1.
-        let (left, right) = (Chain { weights: vec![1.0] }, Chain { weights: vec![4.0] });
+        let spring = |weight| Chain { relation: BarDispersion::of_weights(vec![weight]) };
+        let (left, right) = (spring(1.0), spring(4.0));
         let other = 2.0 * (0.5_f64 * (0.5_f64).sin()).asin();
         let i = Complex::new(0.0, 1.0);
         let (a, b) = ((i * 1.0).exp(), (i * other).exp());

@@ -185,7 +185,7 @@ fn compute_and_write(groups: &[Group], options: &RunOptions, output: &Output) ->
     progress.finish();
     let verdicts: Vec<Verdict> =
         reports.iter().flat_map(|report: &StudyReport| &report.judged).map(|judged| judged.verdict).collect();
-    problems.extend(finish(reports, &manifests, options, output));
+    problems.extend(finish(reports, &manifests, options, output, unfinished));
     for problem in &problems {
         let _ = writeln!(io::stderr(), "error: {problem}");
     }
@@ -293,13 +293,14 @@ fn finish(
     manifests: &[Manifest],
     options: &RunOptions,
     output: &Output,
+    unfinished: bool,
 ) -> Vec<String> {
     let Some(manifest) = manifests.first() else { return Vec::new() };
     let mut pairs = manifest.pairs();
     for other in &manifests[1..] {
         pairs.extend(other.pairs().into_iter().filter(|(name, _)| name.starts_with("study ")));
     }
-    let title = "Verification of peridynamics".to_owned();
+    let title = format!("Verification of peridynamics{}", if unfinished { ", interrupted" } else { "" });
     let summary = RunSummary { title, command: manifest.command(), manifest: pairs, studies: reports };
     let judged: Vec<Judged> = summary.judged().cloned().collect();
     let markdown = summary_markdown(&summary);

@@ -3,7 +3,7 @@
 use super::curve::{Curve, Medium};
 use super::lattice_table::{lattice_row, lattice_table};
 use super::moduli::sound_in_plane as sound;
-use super::sweep::{LatticeSweep, Wrong, check_sizes, unusable};
+use super::sweep::{LatticeSweep, Wrong, check_sizes, distinct, unusable};
 use crate::input::Positive;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
@@ -136,20 +136,9 @@ impl HeatMap {
 
     /// One panel for each volume rule and calibration: kernels down, m across.
     fn figure(&self, values: &[Option<f64>], place: &Place) -> Vec<Figure> {
-        let mut kernels: Vec<Kernel> = Vec::new();
-        let mut sizes: Vec<f64> = Vec::new();
-        let mut kinds = Vec::new();
-        for lattice in &self.lattices {
-            if !kernels.contains(&lattice.kernel) {
-                kernels.push(lattice.kernel);
-            }
-            if !sizes.contains(&lattice.m) {
-                sizes.push(lattice.m);
-            }
-            if !kinds.contains(&(lattice.volume_rule, lattice.calibrated)) {
-                kinds.push((lattice.volume_rule, lattice.calibrated));
-            }
-        }
+        let kernels = distinct(self.lattices.iter().map(|lattice| lattice.kernel));
+        let sizes = distinct(self.lattices.iter().map(|lattice| lattice.m));
+        let kinds = distinct(self.lattices.iter().map(|lattice| (lattice.volume_rule, lattice.calibrated)));
         let largest_shown = values.iter().flatten().copied().fold(0.0, f64::max).max(1e-3);
         let smallest_shown = values.iter().flatten().copied().fold(largest_shown, f64::min).max(1e-3);
         // Cells of one value, or of one cell, need a scale around it.

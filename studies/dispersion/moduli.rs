@@ -2,7 +2,7 @@
 
 use super::curve::reference_lattice;
 use super::lattice_table::{lattice_row, lattice_table};
-use super::sweep::{LatticeSweep, Wrong, check_sizes, unusable};
+use super::sweep::{LatticeSweep, Wrong, check_sizes, distinct, unusable};
 use super::words::BodyName;
 use crate::input::OneOrMany;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
@@ -316,15 +316,8 @@ impl Moduli {
         let found: Vec<(Lattice, LatticeModuli)> = found
             .filter_map(|((_, lattice), found)| found.as_ref().ok().map(|found| (*lattice, found.before)))
             .collect();
-        let (mut kernels, mut sizes): (Vec<Kernel>, Vec<f64>) = (Vec::new(), Vec::new());
-        for (lattice, _) in &found {
-            if !kernels.contains(&lattice.kernel) {
-                kernels.push(lattice.kernel);
-            }
-            if !sizes.contains(&lattice.m) {
-                sizes.push(lattice.m);
-            }
-        }
+        let kernels = distinct(found.iter().map(|(lattice, _)| lattice.kernel));
+        let sizes = distinct(found.iter().map(|(lattice, _)| lattice.m));
         // Whole m from 2 on fit one scale; a user's odd m are shown when there are no others.
         let usual: Vec<f64> = sizes.iter().copied().filter(|m| *m >= 2.0 && m.fract() == 0.0).collect();
         let sizes = if usual.is_empty() { sizes } else { usual };

@@ -76,6 +76,17 @@ impl LatticeSweep {
     }
 }
 
+/// Each value once, in the order of first appearance.
+pub fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut seen = Vec::new();
+    for value in values {
+        if !seen.contains(&value) {
+            seen.push(value);
+        }
+    }
+    seen
+}
+
 /// The kernels named, each narrow one with every p.
 pub fn kernels(names: &OneOrMany<KernelName>, p: Option<&OneOrMany<Positive>>) -> Result<Vec<Kernel>, Wrong> {
     let narrow = |name| matches!(name, KernelName::Gaussian | KernelName::Exponential);

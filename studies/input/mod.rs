@@ -13,3 +13,4 @@ pub use document::{Document, MAX_BYTES};
 pub use fields::{OneOrMany, Positive, one_or_many};
 pub use refusal::{Refusal, nearest};
 pub use set::Setting;
+pub use units::other_units;

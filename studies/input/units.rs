@@ -51,9 +51,24 @@ pub fn to_si(key: &str) -> (String, Conversion) {
     }
 }
 
+/// The other ways in which a key may be written: `dx_mm`, `dx_um`, … for `dx_m`.
+pub fn other_units(key: &str) -> Vec<String> {
+    let forms =
+        ENDINGS.iter().filter_map(|(ending, si, _)| Some(format!("{}{ending}", key.strip_suffix(si)?)));
+    forms.filter(|form| to_si(form).0 == key).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn other_units_lead_back_to_the_key() {
+        assert!(other_units("dx_m").contains(&"dx_mm".to_owned()));
+        assert!(other_units("to_per_m").iter().all(|form| form.starts_with("to_per_")));
+        assert!(other_units("density_kg_m3").contains(&"density_g_cm3".to_owned()));
+        assert!(other_units("kernel").is_empty());
+    }
 
     #[test]
     fn longest_ending_wins() {
