@@ -29,7 +29,9 @@ pub mod finite_differences;
 pub mod lattice;
 pub mod leapfrog;
 pub mod micromodulus;
+pub mod nonlocal_pulse;
 pub mod oracles;
+pub mod released_bar;
 pub mod scattering;
 
 mod absorbing;
