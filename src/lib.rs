@@ -41,8 +41,8 @@
 //! let theta = 2.0 * std::f64::consts::PI / 10.0; // kΔx
 //! let wave = BarDispersion::new(&stencil).wave(theta);
 //! let marched = leapfrog::wave(wave, 0.9 * limit, None).expect("below the limit");
-//! println!("phase speed / v = {:.4} in exact time, {:.4} by leapfrog", wave.phase(theta), marched.phase(theta));
-//! assert!((wave.phase(theta) - 0.9645).abs() < 1e-4);
+//! assert_eq!(format!("{:.4}", wave.phase(theta)), "0.9645"); // 3.5 % too slow in exact time,
+//! assert_eq!(format!("{:.4}", marched.phase(theta)), "0.9842"); // 1.6 % by leapfrog at 0.9 of its limit
 //! # Ok::<(), pd_verify::lattice::Unusable>(())
 //! ```
 //!
