@@ -33,12 +33,20 @@ pub struct TimeStep {
     asked: Vec<(Body, Lattice)>,
 }
 
+/// In the plane the searches cost m⁴; at this m a lattice takes the reference about a second.
+const LARGEST_M: f64 = 20.0;
+
 impl TimeStepAsked {
     pub fn check(&self, title: &str) -> Result<TimeStep, Wrong> {
         let mut asked = Vec::new();
         for &name in &self.body.0 {
             let body = name.into();
             let usable = self.lattice.usable(body).map_err(|wrong| wrong.inside("lattice"))?;
+            if let Some(lattice) = usable.iter().find(|lattice| body != Body::Bar && lattice.m > LARGEST_M) {
+                let message =
+                    format!("m = {} takes the search of the whole zone too long in the plane", lattice.m);
+                return Err(Wrong::new("lattice.m", message, format!("take m up to {LARGEST_M}")));
+            }
             asked.extend(usable.into_iter().map(|lattice| (body, lattice)));
         }
         Ok(TimeStep { title: title.to_owned(), asked })
