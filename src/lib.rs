@@ -62,5 +62,6 @@ pub mod micromodulus;
 pub mod partial_volume;
 pub mod quadrature;
 pub mod report;
+pub mod scene;
 pub mod table;
 pub mod verdict;

@@ -1,12 +1,13 @@
 //! Sweeps of curves in study files: lists of parameters whose every combination is a curve.
 
 use super::curve::{Curve, Medium};
-use super::sweep::{Wrong, check_count, check_usable, kernels};
+use super::sweep::{check_count, check_usable, kernels};
 use super::words::{BranchName, KernelName, SchemeName, VolumeRuleName};
 use crate::input::{OneOrMany, Positive, one_or_many};
 use pd_verify::dispersion::Branch;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
+use pd_verify::scene::Wrong;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::HashSet;

@@ -3,7 +3,7 @@
 use super::curve::{Curve, Medium};
 use super::lattice_table::{lattice_row, lattice_table};
 use super::moduli::sound_in_plane as sound;
-use super::sweep::{LatticeSweep, Wrong, check_sizes, distinct, unusable};
+use super::sweep::{LatticeSweep, check_sizes, distinct, unusable};
 use crate::input::Positive;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
@@ -14,6 +14,7 @@ use pd_verify::kernel::Kernel;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::report::plot::{Axis, Figure, HeatMap as HeatMapPanel};
+use pd_verify::scene::Wrong;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,7 +1,7 @@
 //! `asks = "m_convergence"`: at fixed δ and k, the lattice's ω tends to the continuum's as m → ∞; at which order?
 
 use super::curve::{reference_kernel, reference_lattice};
-use super::sweep::{Wrong, check_sizes, kernels};
+use super::sweep::{check_sizes, kernels};
 use super::words::{KernelName, VolumeRuleName};
 use crate::input::{OneOrMany, Positive};
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim};
@@ -14,6 +14,7 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Series};
+use pd_verify::scene::Wrong;
 use pd_verify::table::Table;
 use pd_verify::verdict::Evidence;
 use pd_verify_reference as reference;

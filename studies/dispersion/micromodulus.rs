@@ -1,7 +1,7 @@
 //! `asks = "micromodulus"`: c(ξ) of each kernel over that of the constant one, and its constant from energy equivalence.
 
 use super::curve::reference_kernel;
-use super::sweep::{Wrong, kernels};
+use super::sweep::kernels;
 use super::words::KernelName;
 use crate::input::{OneOrMany, Positive};
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
@@ -12,6 +12,7 @@ use pd_verify::kernel::Kernel;
 use pd_verify::material::Body;
 use pd_verify::micromodulus::normalised;
 use pd_verify::report::plot::{Axis, Figure, Lines, Series};
+use pd_verify::scene::Wrong;
 use pd_verify::table::Table;
 use pd_verify_reference as reference;
 use schemars::JsonSchema;

@@ -31,10 +31,10 @@ mod words;
 use crate::input::{Document, Refusal, nearest};
 use crate::question::Question;
 use pd_verify::material::Material;
+use pd_verify::scene::Wrong;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
-use sweep::Wrong;
 
 /// The words a case may ask.
 pub const ASKS: [&str; 14] = [

@@ -2,7 +2,7 @@
 
 use super::curve::reference_lattice;
 use super::lattice_table::{lattice_row, lattice_table};
-use super::sweep::{LatticeSweep, Wrong, check_sizes, distinct, unusable};
+use super::sweep::{LatticeSweep, check_sizes, distinct, unusable};
 use super::words::BodyName;
 use crate::input::OneOrMany;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
@@ -14,6 +14,7 @@ use pd_verify::lattice::{Calibration, Lattice, Moduli as LatticeModuli, Stencil,
 use pd_verify::material::Body;
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::report::plot::{Axis, Category, Dots, Figure};
+use pd_verify::scene::Wrong;
 use pd_verify::table::{Cell, Table};
 use pd_verify_reference as reference;
 use schemars::JsonSchema;

@@ -4,7 +4,7 @@
 
 use super::curve::reference_lattice;
 use super::lattice_table::{lattice_row, lattice_table};
-use super::sweep::{LatticeSweep, Wrong};
+use super::sweep::LatticeSweep;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
 use pd_verify::claim::{Basis, Claim, ErrorKind};
@@ -13,6 +13,7 @@ use pd_verify::dispersion::joint::Chain;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::report::plot::{Axis, Dash, Figure, Lines, Series};
+use pd_verify::scene::Wrong;
 use pd_verify_reference as reference;
 use pd_verify_reference::scattering::{self, Half};
 use schemars::JsonSchema;

@@ -5,28 +5,9 @@ use crate::input::{OneOrMany, Positive, one_or_many};
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::{Lattice, Stencil, Unusable};
 use pd_verify::material::Body;
+use pd_verify::scene::Wrong;
 use schemars::JsonSchema;
 use serde::Deserialize;
-
-/// What is wrong with a part of a case: the key, the message, the cure.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Wrong {
-    pub key: String,
-    pub message: String,
-    pub help: String,
-}
-
-impl Wrong {
-    pub fn new(key: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { key: key.into(), message: message.into(), help: help.into() }
-    }
-
-    /// The same, further inside.
-    pub fn inside(self, outer: &str) -> Self {
-        let key = if self.key.is_empty() { outer.to_owned() } else { format!("{outer}.{}", self.key) };
-        Self { key, ..self }
-    }
-}
 
 /// Every combination of these is a lattice. `p` goes with `gaussian` and `exponential`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

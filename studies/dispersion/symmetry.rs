@@ -1,6 +1,6 @@
 //! `asks = "symmetry"`: lattices are periodic in the Brillouin zone, even, and have the symmetry of the square.
 
-use super::sweep::{LatticeSweep, Wrong};
+use super::sweep::LatticeSweep;
 use super::words::BodyName;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
 use crate::subject::Subject;
@@ -10,6 +10,7 @@ use pd_verify::dispersion::bar::BarDispersion;
 use pd_verify::dispersion::plane::PlaneDispersion;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
+use pd_verify::scene::Wrong;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};

@@ -2,7 +2,7 @@
 
 use super::curve::reference_lattice;
 use super::lattice_table::{lattice_row, lattice_table};
-use super::sweep::{LatticeSweep, Wrong};
+use super::sweep::LatticeSweep;
 use super::words::BodyName;
 use crate::input::OneOrMany;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
@@ -13,6 +13,7 @@ use pd_verify::dispersion::timestep::TimeStep as Limits;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Series};
+use pd_verify::scene::Wrong;
 use pd_verify::table::{Cell, Table};
 use pd_verify_reference as reference;
 use rayon::prelude::*;

@@ -1,8 +1,8 @@
 //! Which wavenumbers a curve is drawn at: a range that ends at the Brillouin zone's edge, or a list.
 
 use super::curve::Curve;
-use super::sweep::Wrong;
 use crate::input::Positive;
+use pd_verify::scene::Wrong;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
