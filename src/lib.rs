@@ -53,15 +53,24 @@
 
 pub mod claim;
 pub mod compare;
+pub mod constraints;
 pub mod dispersion;
 pub mod family;
+pub mod forces;
+pub mod grid;
 pub mod kernel;
 pub mod lattice;
+pub mod ledger;
+pub mod march;
 pub mod material;
 pub mod micromodulus;
+pub mod model;
 pub mod partial_volume;
+pub mod plan;
 pub mod quadrature;
+pub mod record;
 pub mod report;
 pub mod scene;
+pub mod statics;
 pub mod table;
 pub mod verdict;

@@ -4,16 +4,25 @@ use super::plot::{Figure, Panel};
 use crate::table::{Cell, Row, Table};
 use std::sync::Arc;
 
-/// The table `<figure>.csv`. A heat map gives its rows as series and its columns as x, a dot chart its groups as x.
+/// The table `<figure>.csv`. A heat map gives its rows as series and its columns as x, a dot chart its groups as x. A
+/// raster gives what its values are as series, and the value of each cell at its middle in a column of its own, which
+/// only figures with rasters have.
 pub fn figure_table(figure: &Figure) -> Table {
-    let columns = ["panel", "series", "x_axis", "y_axis", "x", "y"];
-    let mut table = Table::new(format!("{}.csv", figure.id), &columns);
+    let columns = ["panel", "series", "x_axis", "y_axis", "x", "y", "value"];
+    let rasters = figure.panels.iter().any(|panel| matches!(panel, Panel::Raster(_)));
+    let columns = if rasters { &columns[..] } else { &columns[..6] };
+    let mut table = Table::new(format!("{}.csv", figure.id), columns);
     for (index, panel) in figure.panels.iter().enumerate() {
         let block = |title: &str, series: &str, x_axis: &str, y_axis: &str| -> Arc<[Cell]> {
             let title = if title.is_empty() { (index + 1).to_string() } else { title.to_owned() };
             Arc::new([title.into(), series.into(), x_axis.into(), y_axis.into()])
         };
-        let mut push = |shared: &Arc<[Cell]>, x: Cell, y: Cell| table.push(Row::of_block(shared, vec![x, y]));
+        let mut push_all = |shared: &Arc<[Cell]>, x: Cell, y: Cell, value: Cell| {
+            let mut own = vec![x, y, value];
+            own.truncate(columns.len() - shared.len());
+            table.push(Row::of_block(shared, own));
+        };
+        let mut push = |shared: &Arc<[Cell]>, x: Cell, y: Cell| push_all(shared, x, y, Cell::Empty);
         match panel {
             Panel::Lines(lines) => {
                 for series in &lines.series {
@@ -36,6 +45,12 @@ pub fn figure_table(figure: &Figure) -> Table {
                         .for_each(|(x, &value)| push(&shared, x.as_str().into(), value.into()));
                 }
             }
+            Panel::Raster(raster) => {
+                let shared = block(&raster.title, &raster.value.label, &raster.x.label, &raster.y.label);
+                for (x, y, value) in raster.points() {
+                    push_all(&shared, x.into(), y.into(), value.into());
+                }
+            }
             Panel::Dots(dots) => {
                 for category in &dots.categories {
                     let shared = block(&dots.title, &category.label, "group", &dots.value.label);
@@ -54,7 +69,7 @@ pub fn figure_table(figure: &Figure) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::plot::{Axis, Lines, Series};
+    use crate::report::plot::{Axis, Lines, Raster, Series};
 
     #[test]
     fn every_point_is_a_row_and_a_gap_an_empty_cell() {
@@ -62,5 +77,21 @@ mod tests {
         let panel = Lines::new(Axis::linear("t (s)"), Axis::linear("u (m)"), vec![series]);
         let text = figure_table(&Figure::new("f", "", "", panel)).csv();
         assert_eq!(text, "panel,series,x_axis,y_axis,x,y\n1,a,t (s),u (m),1,2\n1,a,t (s),u (m),3,\n");
+    }
+
+    #[test]
+    fn every_cell_of_a_raster_is_a_row_with_its_value() {
+        let (x, t) = (Axis::linear("x (m)").range(0.0, 1.0), Axis::linear("t (s)").range(0.0, 4.0));
+        let values = vec![vec![Some(0.1), None], vec![Some(-2.0), Some(0.0)]];
+        let panel = Raster::new(x, t, Axis::linear("strain (1)"), values).titled("bar");
+        let text = figure_table(&Figure::new("f", "", "", panel)).csv();
+        let rows = ["0.25,1,0.1", "0.75,1,", "0.25,3,-2", "0.75,3,0"];
+        let rows = rows.map(|row| format!("bar,strain (1),x (m),t (s),{row}\n")).concat();
+        assert_eq!(text, format!("panel,series,x_axis,y_axis,x,y,value\n{rows}"));
+        let line = Lines::new(Axis::linear("x"), Axis::linear("y"), vec![Series::line("a", vec![(1.0, 2.0)])]);
+        let Panel::Raster(raster) = Figure::new("f", "", "", line.clone()).panel(line).panels.remove(0) else {
+            return;
+        };
+        drop(raster);
     }
 }

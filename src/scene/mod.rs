@@ -1,7 +1,103 @@
 //! What is asked to be simulated: plain data, from a study file or written in Rust.
+//!
+//! A scene says which body, which lattice, which edges, what it starts from, what acts on it, for how long and what is
+//! to be seen. [`crate::plan`] decides how that is served and what it costs; [`crate::model`] makes it concrete.
 
+mod effect;
+mod history;
+mod initial;
+mod place;
 mod positive;
+mod probe;
+mod time;
 mod wrong;
 
+pub use effect::{Acts, Effect, Setting};
+pub use history::{History, HistoryAsked};
+pub use initial::{Initial, InitialAsked, Quantity, Shape};
+pub use place::{Axis, Region, Side};
 pub use positive::Positive;
+pub use probe::{Probe, Watch};
+pub use time::{StepRule, Time};
 pub use wrong::Wrong;
+
+use crate::constraints::Edges;
+use crate::forces::surface::Correction;
+use crate::lattice::Lattice;
+use crate::material::{Body, Material};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// How far bonds may turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Rotations {
+    /// The linearised law.
+    #[default]
+    Small,
+    /// The geometrically exact law.
+    Finite,
+}
+
+/// Which operator serves the bonds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Operator {
+    /// One stencil for all nodes.
+    #[default]
+    Stencil,
+    /// Every bond stored: the stencil's oracle.
+    Bonds,
+}
+
+/// A simulation as asked for.
+#[derive(Debug, Clone)]
+pub struct Scene<const D: usize> {
+    /// In plans and messages.
+    pub name: String,
+    pub material: Material,
+    pub body: Body,
+    pub lattice: Lattice,
+    /// Cells along each axis.
+    pub nodes: [usize; D],
+    /// Δx in m.
+    pub spacing: f64,
+    /// What a cell measures across the simulated axes: the section A in m² of a bar, the thickness h in m of a plate.
+    pub section: f64,
+    pub rotations: Rotations,
+    pub operator: Operator,
+    pub edges: Edges<D>,
+    /// For bonds near free edges.
+    pub surface: Correction,
+    /// Displacements at t = 0, summed.
+    pub displacement: Vec<Initial<D>>,
+    /// Velocities at t = 0, summed.
+    pub velocity: Vec<Initial<D>>,
+    /// What acts beside the bonds.
+    pub effects: Vec<Arc<dyn Effect<D>>>,
+    pub time: Time,
+    pub probes: Vec<Probe<D>>,
+}
+
+impl<const D: usize> Scene<D> {
+    /// Size of the body in m.
+    pub fn size(&self) -> [f64; D] {
+        self.nodes.map(|nodes| nodes as f64 * self.spacing)
+    }
+
+    /// Volume of a cell in m³.
+    pub fn cell_volume(&self) -> f64 {
+        self.section * self.spacing.powi(D as i32)
+    }
+
+    /// Speed of long dilatational waves that the material is meant to have, in m/s.
+    pub fn speed(&self) -> f64 {
+        self.material.dilatational_speed(self.body)
+    }
+
+    /// The intended C₁₁ (E in a bar) in Pa.
+    pub fn modulus(&self) -> f64 {
+        self.material.youngs_modulus * self.body.stiffness_over_youngs_modulus()
+    }
+}

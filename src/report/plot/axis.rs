@@ -21,7 +21,8 @@ impl Scale {
         }
     }
 
-    fn back(self, value: f64) -> f64 {
+    /// The value that [`Self::of`] came from.
+    pub(super) fn back(self, value: f64) -> f64 {
         match self {
             Self::Linear => value,
             Self::Log => libm::pow(10.0, value),

@@ -1,7 +1,8 @@
 //! The one place that calls plotters: shapes in pixels as floating-point numbers become an SVG text.
 //!
 //! Plotters' own charts clamp what is outside, lose ticks and round to whole pixels, so only its SVG primitives are
-//! used, on a grid ten times finer than a pixel. Its primitives know no dashes; they are written in afterwards.
+//! used, on a grid ten times finer than a pixel. Its primitives know no dashes and no sets of rectangles; these are written
+//! in afterwards.
 
 use super::PlotError;
 use super::clip::{Point, Rect};
@@ -51,6 +52,7 @@ pub(super) struct Text {
 enum Shape {
     Path(Vec<Point>, Stroke),
     Polygon(Vec<Point>, Rgb, f64),
+    Cells(Vec<Rect>, Rgb),
     Circle(Point, f64, Rgb),
     Ring(Point, f64, Stroke),
     Text(Text),
@@ -78,6 +80,11 @@ impl Canvas {
     pub fn rect(&mut self, r: Rect, fill: Rgb, alpha: f64) {
         let corners = vec![(r.left, r.top), (r.right, r.top), (r.right, r.bottom), (r.left, r.bottom)];
         self.polygon(corners, fill, alpha);
+    }
+
+    /// Rectangles of one colour as one element, with edges that leave no seam between neighbours.
+    pub fn cells(&mut self, cells: Vec<Rect>, fill: Rgb) {
+        self.shapes.push(Shape::Cells(cells, fill));
     }
 
     pub fn outline(&mut self, r: Rect, stroke: Stroke) {
@@ -160,15 +167,21 @@ impl Canvas {
             escape(title),
             escape(about)
         );
-        Ok(head + &self.with_dashes(&raw))
+        Ok(head + &self.completed(&raw))
     }
 
-    /// Plotters' elements with the dashes they cannot carry, one line each, without its `svg` head.
-    fn with_dashes(&self, raw: &str) -> String {
+    /// Plotters' elements with the dashes and cells they cannot carry, one line each, without its `svg` head.
+    fn completed(&self, raw: &str) -> String {
         let mut strokes = self.shapes.iter().filter_map(|shape| match shape {
             Shape::Path(_, stroke) => Some(stroke),
             _ => None,
         });
+        // Plotters wrote the white ground first.
+        let mut fills = std::iter::once(None).chain(self.shapes.iter().filter_map(|shape| match shape {
+            Shape::Polygon(..) => Some(None),
+            Shape::Cells(cells, fill) => Some(Some((cells, *fill))),
+            _ => None,
+        }));
         let mut out = String::with_capacity(raw.len());
         for line in raw.lines().skip(1) {
             let line = line.replace(" opacity=\"1\"", "");
@@ -181,6 +194,10 @@ impl Canvas {
                     stroke.dash.lengths().iter().map(|l| format!("{:.0}", l * stroke.width * FINE)).collect();
                 let dashes = format!("<polyline stroke-dasharray=\"{}\"", lengths.join(" "));
                 out.push_str(&line.replacen("<polyline", &dashes, 1));
+            } else if line.starts_with("<polygon")
+                && let Some(Some((cells, fill))) = fills.next()
+            {
+                out.push_str(&path_of(cells, fill));
             } else {
                 out.push_str(&line);
             }
@@ -196,6 +213,8 @@ fn draw(backend: &mut SVGBackend<'_>, shape: &Shape) -> Result<(), PlotError> {
         Shape::Polygon(points, fill, alpha) => {
             backend.fill_polygon(points.iter().map(fine), &rgba(*fill, *alpha))
         }
+        // A polygon that is no more than a place in the order of drawing.
+        Shape::Cells(_, fill) => backend.fill_polygon([(0, 0)], &rgba(*fill, 1.0)),
         Shape::Circle(centre, radius, fill) => {
             backend.draw_circle(fine(centre), (radius * FINE).round() as u32, &rgba(*fill, 1.0), true)
         }
@@ -223,6 +242,19 @@ fn draw(backend: &mut SVGBackend<'_>, shape: &Shape) -> Result<(), PlotError> {
         }
     }
     .map_err(drawing)
+}
+
+/// One path through all rectangles, each from the corner of the one before.
+fn path_of(cells: &[Rect], (r, g, b): Rgb) -> String {
+    let mut path = format!("<path fill=\"#{r:02X}{g:02X}{b:02X}\" shape-rendering=\"crispEdges\" d=\"");
+    let mut from = (0, 0);
+    for cell in cells {
+        let (start, end) = (fine(&(cell.left, cell.top)), fine(&(cell.right, cell.bottom)));
+        let (wide, high) = (end.0 - start.0, end.1 - start.1);
+        path += &format!("m{} {}h{wide}v{high}h{}z", start.0 - from.0, start.1 - from.1, -wide);
+        from = start;
+    }
+    path + "\"/>"
 }
 
 fn fine(point: &Point) -> (i32, i32) {

@@ -1,6 +1,13 @@
-//! Colours for the cells of a heat map.
+//! Colours for cells: how values become colours, and the scale drawn beside the cells.
 
-use super::style::{BLACK, Rgb, WHITE};
+use super::PlotError;
+use super::axis::{Axis, Scale, Span};
+use super::canvas::{Align, Canvas, Stroke, Text};
+use super::clip::Rect;
+use super::frame::{self, words};
+use super::style::{BLACK, GREY, INK, Rgb, WHITE};
+use super::text;
+use super::ticks::fitting;
 
 /// Viridis: lighter is larger for every eye and on a grey printer.
 const SEQUENTIAL: [Rgb; 9] = [
@@ -50,6 +57,86 @@ impl Colours {
         let mix = |a: u8, b: u8| (f64::from(a) + t * (f64::from(b) - f64::from(a))).round() as u8;
         let (a, b) = (stops[first], stops[first + 1]);
         (mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
+    }
+}
+
+const BAR: f64 = 16.0;
+
+/// The colours of an axis over the range that is shown.
+#[derive(Debug)]
+pub(super) struct ColourScale<'a> {
+    axis: &'a Axis,
+    colours: Colours,
+    /// From 0 to 1.
+    share: Span,
+}
+
+impl<'a> ColourScale<'a> {
+    /// Width needed right of the cells: a gap, the bar, its tick labels and its label.
+    pub const ROOM: f64 = 16.0 + BAR + 9.0 + 52.0 + frame::LINE;
+
+    /// A scale for these values; about its centre it is symmetric.
+    pub fn new(axis: &'a Axis, colours: Colours, values: &[Vec<Option<f64>>]) -> Result<Self, PlotError> {
+        let (mut lo, mut hi) = axis.span(values.iter().flatten().flatten().copied(), 0.0)?;
+        if let Colours::Diverging { centre } = colours {
+            let of = |v| axis.scale.of(v);
+            if !of(centre).is_finite() {
+                return Err(PlotError::Range { axis: axis.label.clone(), lo: centre, hi: centre });
+            }
+            let far = (of(hi) - of(centre)).abs().max((of(centre) - of(lo)).abs());
+            (lo, hi) = match axis.scale {
+                Scale::Linear => (centre - far, centre + far),
+                Scale::Log => (centre / libm::pow(10.0, far), centre * libm::pow(10.0, far)),
+            };
+        }
+        Ok(Self { axis, colours, share: Span { scale: axis.scale, lo, hi, start: 0.0, end: 1.0 } })
+    }
+
+    /// Where the value stands on the scale, 0 to 1 and beyond; None where it has no place.
+    pub fn share(&self, value: f64) -> Option<f64> {
+        let share = self.share.at(value);
+        (value.is_finite() && share.is_finite()).then_some(share)
+    }
+
+    /// The colour at a share of the scale.
+    pub fn colour(&self, share: f64) -> Rgb {
+        self.colours.at(share)
+    }
+
+    /// Draws the scale right of the cells.
+    pub fn draw(&self, canvas: &mut Canvas, area: Rect) {
+        let strip = Rect { left: area.right + 16.0, right: area.right + 16.0 + BAR, ..area };
+        let steps = 64;
+        let high = strip.height() / f64::from(steps);
+        for i in 0..steps {
+            let bottom = strip.bottom - f64::from(i) * high;
+            // Half a pixel of overlap hides seams between the steps.
+            let piece = Rect { top: (bottom - high - 0.5).max(strip.top), bottom, ..strip };
+            canvas.rect(piece, self.colours.at((f64::from(i) + 0.5) / f64::from(steps)), 1.0);
+        }
+        canvas.outline(strip, Stroke::solid(GREY, 1.0));
+        let ticks = fitting(
+            self.share.scale,
+            self.share.lo,
+            self.share.hi,
+            strip.height(),
+            false,
+            frame::SIZE,
+        );
+        let up = Span { start: strip.bottom, end: strip.top, ..self.share };
+        for (value, label) in ticks.labelled() {
+            let y = up.at(value);
+            canvas.line((strip.right, y), (strip.right + 5.0, y), Stroke::solid(INK, 1.0));
+            canvas.text(words((strip.right + 8.0, y), label, Align::Left));
+        }
+        let mut x = strip.right + 14.0 + ticks.widest(frame::SIZE) + 0.5 * frame::LINE;
+        for line in
+            text::wrap(&frame::full_label(self.axis, &ticks), frame::SIZE, false, strip.height() + 40.0)
+        {
+            let at = (x, 0.5 * (strip.top + strip.bottom));
+            canvas.text(Text { upwards: true, ..words(at, line, Align::Centre) });
+            x += frame::LINE;
+        }
     }
 }
 

@@ -1,19 +1,17 @@
 //! A table of numbers on coloured cells, with the colour scale beside it.
 
 use super::PlotError;
-use super::axis::{Axis, Scale, Span};
+use super::axis::Axis;
 use super::canvas::{Align, Canvas, Stroke, Text};
 use super::clip::{Point, Rect};
-use super::colour_scale::{Colours, ink_on};
+use super::colour_scale::{ColourScale, Colours, ink_on};
 use super::frame::{self, words};
 use super::left_out::LeftOut;
 use super::number::together;
-use super::style::{GREY, INK, Rgb, WHITE};
+use super::style::{INK, Rgb, WHITE};
 use super::text;
-use super::ticks::fitting;
 
 const HATCH: Rgb = (190, 190, 190);
-const BAR: f64 = 16.0;
 
 /// Values over two lists of names; the first row stands at the top.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -71,22 +69,6 @@ impl HeatMap {
         if self.x.is_empty() || self.y.is_empty() { Err(PlotError::Empty) } else { Ok(()) }
     }
 
-    /// Range of the colours; about its centre the scale is symmetric.
-    fn range(&self) -> Result<(f64, f64), PlotError> {
-        let all = || self.values.iter().flatten().flatten().copied();
-        let (lo, hi) = self.value.span(all(), 0.0)?;
-        let Colours::Diverging { centre } = self.colours else { return Ok((lo, hi)) };
-        let of = |v| self.value.scale.of(v);
-        if !of(centre).is_finite() {
-            return Err(PlotError::Range { axis: self.value.label.clone(), lo: centre, hi: centre });
-        }
-        let far = (of(hi) - of(centre)).abs().max((of(centre) - of(lo)).abs());
-        Ok(match self.value.scale {
-            Scale::Linear => (centre - far, centre + far),
-            Scale::Log => (centre / libm::pow(10.0, far), centre * libm::pow(10.0, far)),
-        })
-    }
-
     /// Draws within `width` from the upper left corner; returns the height used and what was left out.
     pub(super) fn draw(
         &self,
@@ -95,13 +77,11 @@ impl HeatMap {
         width: f64,
     ) -> Result<(f64, LeftOut), PlotError> {
         self.check()?;
-        let (lo, hi) = self.range()?;
+        let scale = ColourScale::new(&self.value, self.colours, &self.values)?;
         let title = frame::paragraph(canvas, &self.title, left + 0.5 * width, top, width, true);
         let name_room = text::widest(self.y.iter().map(String::as_str), frame::SIZE).min(0.36 * width);
         let grid_left = left + name_room + 10.0 + if self.y_label.is_empty() { 0.0 } else { frame::LINE };
-        // Right of the cells: a gap, the bar, its tick labels and its label.
-        let bar_room = 16.0 + BAR + 9.0 + 52.0 + frame::LINE;
-        let cell = ((left + width - bar_room - grid_left) / self.x.len() as f64).clamp(6.0, 110.0);
+        let cell = ((left + width - ColourScale::ROOM - grid_left) / self.x.len() as f64).clamp(6.0, 110.0);
         let row = (0.5 * cell).clamp(34.0, 44.0);
         let area = Rect {
             left: grid_left,
@@ -109,15 +89,14 @@ impl HeatMap {
             right: grid_left + cell * self.x.len() as f64,
             bottom: top + title + 8.0 + row * self.y.len() as f64,
         };
-        let share = Span { scale: self.value.scale, lo, hi, start: 0.0, end: 1.0 };
-        let left_out = self.cells(canvas, area, (cell, row), &share);
+        let left_out = self.cells(canvas, area, (cell, row), &scale);
         canvas.outline(area, Stroke::solid(INK, 1.2));
         let below = self.names(canvas, area, (cell, row), name_room);
-        self.bar(canvas, area, &share);
+        scale.draw(canvas, area);
         Ok((area.bottom + below - top, left_out))
     }
 
-    fn cells(&self, canvas: &mut Canvas, area: Rect, (cell, row): Point, share: &Span) -> LeftOut {
+    fn cells(&self, canvas: &mut Canvas, area: Rect, (cell, row): Point, scale: &ColourScale) -> LeftOut {
         let mut left_out = LeftOut::default();
         let texts = together(&self.values);
         let per_size = text::widest(texts.iter().flatten().map(String::as_str), 1.0);
@@ -126,15 +105,13 @@ impl HeatMap {
             for (i, value) in values.iter().enumerate() {
                 let (x, y) = (area.left + i as f64 * cell, area.top + j as f64 * row);
                 let place = Rect { left: x, top: y, right: x + cell, bottom: y + row };
-                let shown = value.filter(|v| v.is_finite() && share.at(*v).is_finite());
-                let Some(value) = shown else {
-                    left_out.not_finite += usize::from(value.is_some_and(|v| !v.is_finite()));
-                    left_out.not_positive += usize::from(value.is_some_and(f64::is_finite));
+                let Some(share) = value.and_then(|v| scale.share(v)) else {
+                    left_out.miss(*value);
                     left_out.blank_cells += 1;
                     hatch(canvas, place);
                     continue;
                 };
-                let fill = self.colours.at(share.at(value));
+                let fill = scale.colour(share);
                 canvas.rect(place, fill, 1.0);
                 let at = (x + 0.5 * cell, y + 0.5 * row);
                 if size >= 8.0 {
@@ -182,35 +159,6 @@ impl HeatMap {
         let centre = 0.5 * (area.left + area.right);
         8.0 + below
             + frame::paragraph(canvas, &self.x_label, centre, area.bottom + 8.0 + below, area.width(), false)
-    }
-
-    /// The colour scale right of the cells.
-    fn bar(&self, canvas: &mut Canvas, area: Rect, share: &Span) {
-        let strip = Rect { left: area.right + 16.0, right: area.right + 16.0 + BAR, ..area };
-        let steps = 64;
-        let high = strip.height() / f64::from(steps);
-        for i in 0..steps {
-            let bottom = strip.bottom - f64::from(i) * high;
-            // Half a pixel of overlap hides seams between the steps.
-            let piece = Rect { top: (bottom - high - 0.5).max(strip.top), bottom, ..strip };
-            canvas.rect(piece, self.colours.at((f64::from(i) + 0.5) / f64::from(steps)), 1.0);
-        }
-        canvas.outline(strip, Stroke::solid(GREY, 1.0));
-        let ticks = fitting(share.scale, share.lo, share.hi, strip.height(), false, frame::SIZE);
-        let up = Span { start: strip.bottom, end: strip.top, ..*share };
-        for (value, label) in ticks.labelled() {
-            let y = up.at(value);
-            canvas.line((strip.right, y), (strip.right + 5.0, y), Stroke::solid(INK, 1.0));
-            canvas.text(words((strip.right + 8.0, y), label, Align::Left));
-        }
-        let mut x = strip.right + 14.0 + ticks.widest(frame::SIZE) + 0.5 * frame::LINE;
-        for line in
-            text::wrap(&frame::full_label(&self.value, &ticks), frame::SIZE, false, strip.height() + 40.0)
-        {
-            let at = (x, 0.5 * (strip.top + strip.bottom));
-            canvas.text(Text { upwards: true, ..words(at, line, Align::Centre) });
-            x += frame::LINE;
-        }
     }
 }
 

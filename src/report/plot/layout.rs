@@ -74,7 +74,7 @@ impl Panel {
         match self {
             Self::Lines(lines) => lines.legend(),
             Self::Polar(polar) => polar.legend(),
-            Self::HeatMap(_) => Vec::new(),
+            Self::HeatMap(_) | Self::Raster(_) => Vec::new(),
             Self::Dots(dots) => dots.legend(),
         }
     }
@@ -84,6 +84,7 @@ impl Panel {
             Self::Lines(lines) => lines.draw(canvas, corner, width),
             Self::Polar(polar) => polar.draw(canvas, corner, width),
             Self::HeatMap(map) => map.draw(canvas, corner, width),
+            Self::Raster(raster) => raster.draw(canvas, corner, width),
             Self::Dots(dots) => dots.draw(canvas, corner, width),
         }
     }

@@ -9,6 +9,7 @@ pub(super) struct LeftOut {
     pub not_positive: usize,
     pub outside: usize,
     pub blank_cells: usize,
+    pub grey_cells: usize,
 }
 
 impl LeftOut {
@@ -26,11 +27,18 @@ impl LeftOut {
         false
     }
 
+    /// Counts a cell's value that has no colour; one that was never there is not counted.
+    pub fn miss(&mut self, value: Option<f64>) {
+        self.not_finite += usize::from(value.is_some_and(|v| !v.is_finite()));
+        self.not_positive += usize::from(value.is_some_and(f64::is_finite));
+    }
+
     pub fn add(&mut self, other: Self) {
         self.not_finite += other.not_finite;
         self.not_positive += other.not_positive;
         self.outside += other.outside;
         self.blank_cells += other.blank_cells;
+        self.grey_cells += other.grey_cells;
     }
 
     /// The sentence under the figure; empty where nothing was left out.
@@ -50,9 +58,13 @@ impl LeftOut {
         if !parts.is_empty() {
             note = format!("Not drawn: {}.", parts.join(", "));
         }
-        if self.blank_cells > 0 {
-            note.push_str(if note.is_empty() { "" } else { " " });
-            note.push_str("Hatched: no value.");
+        for (cells, meaning) in
+            [(self.blank_cells, "Hatched: no value."), (self.grey_cells, "Grey: no value.")]
+        {
+            if cells > 0 {
+                note.push_str(if note.is_empty() { "" } else { " " });
+                note.push_str(meaning);
+            }
         }
         note
     }

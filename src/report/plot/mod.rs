@@ -1,4 +1,4 @@
-//! Figures as SVG text: curves, polar plots, heat maps and dot charts from plain data.
+//! Figures as SVG text: curves, polar plots, heat maps, rasters and dot charts from plain data.
 //!
 //! [`svg`] is a pure function: the same figure gives the same text. Legends stand outside the plots, curves are cut at
 //! the frame, a value that is missing or not finite is a gap, and a line under the figure says what was left out.
@@ -30,6 +30,7 @@ mod legend;
 mod lines;
 mod number;
 mod polar;
+mod raster;
 mod slope;
 mod style;
 #[cfg(test)]
@@ -44,6 +45,7 @@ pub use heat_map::HeatMap;
 pub use layout::svg;
 pub use lines::{Band, Guide, Lines, Series};
 pub use polar::Polar;
+pub use raster::Raster;
 pub use style::{Colour, Dash, Marker, Style};
 
 /// One or several panels under one title.
@@ -90,6 +92,7 @@ pub enum Panel {
     Lines(Lines),
     Polar(Polar),
     HeatMap(HeatMap),
+    Raster(Raster),
     Dots(Dots),
 }
 
@@ -108,6 +111,12 @@ impl From<Polar> for Panel {
 impl From<HeatMap> for Panel {
     fn from(panel: HeatMap) -> Self {
         Self::HeatMap(panel)
+    }
+}
+
+impl From<Raster> for Panel {
+    fn from(panel: Raster) -> Self {
+        Self::Raster(panel)
     }
 }
 

@@ -1,0 +1,122 @@
+//! Loads: a pattern over nodes times a history.
+//!
+//! A body force fills a region with b in N/m³. A traction σ on an edge is b = σ/Δx on the one layer of cells there.
+
+use super::{Class, Force, Now};
+use crate::grid::Grid;
+use crate::scene::{Acts, Axis, Effect, History, HistoryAsked, Region, Setting, Side, Wrong};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A body force as asked for.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BodyForce {
+    pub axis: Axis,
+    /// In N/m³.
+    pub density_n_m3: f64,
+    /// Default: the whole body.
+    pub region: Option<Region>,
+    pub history: HistoryAsked,
+}
+
+/// A traction on an edge as asked for.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Traction {
+    pub edge: Side,
+    /// Direction in which it pulls.
+    pub axis: Axis,
+    /// In Pa.
+    pub stress_pa: f64,
+    pub history: HistoryAsked,
+}
+
+impl<const D: usize> Effect<D> for BodyForce {
+    fn name(&self) -> String {
+        "body force".into()
+    }
+
+    fn act(&self, setting: &Setting<'_, D>) -> Result<Acts<D>, Wrong> {
+        finite("density_n_m3", self.density_n_m3)?;
+        let region = self.region.clone().unwrap_or_default();
+        let nodes = region.nodes(setting.grid).map_err(|wrong| wrong.inside("region"))?;
+        let history = self.history.check().map_err(|wrong| wrong.inside("history"))?;
+        let axis = self.axis.index::<D>()?;
+        let load = Load::new(setting.grid, "body force", axis, self.density_n_m3, &nodes, history);
+        Ok(Acts::Force(Box::new(load)))
+    }
+}
+
+impl<const D: usize> Effect<D> for Traction {
+    fn name(&self) -> String {
+        "traction".into()
+    }
+
+    fn act(&self, setting: &Setting<'_, D>) -> Result<Acts<D>, Wrong> {
+        finite("stress_pa", self.stress_pa)?;
+        let history = self.history.check().map_err(|wrong| wrong.inside("history"))?;
+        let holds = self.edge.holds(setting.grid, 1)?;
+        let nodes: Vec<_> = setting.grid.each().filter(|node| holds(*node)).collect();
+        let density = self.stress_pa / setting.grid.spacing;
+        let axis = self.axis.index::<D>()?;
+        Ok(Acts::Force(Box::new(Load::new(setting.grid, "traction", axis, density, &nodes, history))))
+    }
+}
+
+fn finite(key: &str, value: f64) -> Result<(), Wrong> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(Wrong::new(key, format!("{value} is no load"), "give a finite number"))
+}
+
+/// A load as it acts.
+pub struct Load {
+    name: &'static str,
+    /// By piece: places in the force field, from the piece's start.
+    places: Vec<Vec<usize>>,
+    /// In N/m³.
+    density: f64,
+    history: History,
+}
+
+impl Load {
+    /// The same density on each of `nodes`.
+    pub fn new<const D: usize>(
+        grid: &Grid<D>,
+        name: &'static str,
+        axis: usize,
+        density: f64,
+        nodes: &[[isize; D]],
+        history: History,
+    ) -> Self {
+        let mut places = vec![Vec::new(); grid.pieces()];
+        for node in nodes {
+            let place = grid.place(*node) - grid.body().start;
+            places[place / grid.piece()].push(place % grid.piece() + axis * grid.stride());
+        }
+        Self { name, places, density, history }
+    }
+}
+
+impl<const D: usize> Force<D> for Load {
+    fn name(&self) -> String {
+        self.name.into()
+    }
+
+    fn class(&self) -> Class {
+        Class::Load
+    }
+
+    fn add(&self, now: &Now<'_>, piece: usize, sum: &mut [f64]) {
+        let density = self.density * self.history.at(now.time);
+        for &place in &self.places[piece] {
+            sum[place] += density;
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        self.places.iter().map(|places| 8 * places.len()).sum()
+    }
+}

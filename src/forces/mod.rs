@@ -1,0 +1,120 @@
+//! What acts on the nodes: each force adds its share, and an absent force is not in the list.
+//!
+//! ρ ü = Σ forces, all per unit volume (N/m³). A force is evaluated at a state and changes nothing but the sum it is
+//! given; what has a potential says how much energy it holds, which the conformance suite differentiates.
+
+mod bond_list;
+mod damping;
+mod law;
+mod load;
+mod stencil;
+pub mod surface;
+
+pub use bond_list::BondList;
+pub use damping::{Damper, Damping};
+pub use law::{Direction, Finite, Law, Small};
+pub use load::{BodyForce, Load, Traction};
+pub use stencil::LatticeStencil;
+
+use crate::grid::Grid;
+use crate::lattice::Stencil;
+
+/// The state at which forces are evaluated.
+#[derive(Debug, Clone, Copy)]
+pub struct Now<'a> {
+    /// u at time n in m; ghosts filled.
+    pub displacement: &'a [f64],
+    /// u(n) − u(n−1) in m: Δt times the velocity half a step ago.
+    pub increment: &'a [f64],
+    /// t(n) in s.
+    pub time: f64,
+    /// Δt in s.
+    pub time_step: f64,
+}
+
+/// In which order forces are summed, and in which account their work is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// The body's own bonds: has a potential.
+    Internal,
+    /// Given from outside.
+    Load,
+    /// Depends on the velocity, and comes last: it sees the sum of the others.
+    Rate,
+}
+
+/// A term of the equation of motion.
+pub trait Force<const D: usize>: Send + Sync {
+    /// For plans and messages.
+    fn name(&self) -> String;
+
+    fn class(&self) -> Class;
+
+    /// How many nodes away it looks.
+    fn reach(&self) -> usize {
+        0
+    }
+
+    /// Adds the force density in N/m³ on the nodes of a piece; `sum` is that piece of the force field.
+    fn add(&self, now: &Now<'_>, piece: usize, sum: &mut [f64]);
+
+    /// Energy per volume of a node's cell, summed over the nodes of a piece, in J/m³; `None` without a potential.
+    fn energy(&self, _now: &Now<'_>, _piece: usize) -> Option<f64> {
+        None
+    }
+
+    /// Bytes it keeps for the whole body.
+    fn bytes(&self) -> usize {
+        0
+    }
+}
+
+/// A bond of the half family in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FamilyBond<const D: usize> {
+    /// In spacings.
+    pub offset: [i32; D],
+    pub direction: Direction<D>,
+    /// w = c V β/|ξ| in N/m⁴.
+    pub weight: f64,
+}
+
+/// The half family of a lattice in SI units: `modulus` is the intended C₁₁ in Pa (E in a bar).
+pub fn family<const D: usize>(stencil: &Stencil<D>, modulus: f64, spacing: f64) -> Vec<FamilyBond<D>> {
+    let unit = modulus / (spacing * spacing);
+    let si = |bond: &crate::lattice::Bond<D>| FamilyBond {
+        offset: bond.offset,
+        direction: Direction::new(bond.offset, spacing),
+        weight: bond.weight * unit,
+    };
+    stencil.bonds.iter().map(si).collect()
+}
+
+/// Whether a bond exists: both ends are in the body, or beyond an edge that mirrors or repeats it.
+pub trait Present<const D: usize>: Fn([isize; D], [i32; D]) -> bool {}
+impl<const D: usize, F: Fn([isize; D], [i32; D]) -> bool> Present<D> for F {}
+
+/// η of the bond from one place to another, component by component.
+#[inline(always)]
+fn apart<const D: usize>(displacement: &[f64], from: usize, to: usize, stride: usize) -> [f64; D] {
+    std::array::from_fn(|axis| displacement[to + axis * stride] - displacement[from + axis * stride])
+}
+
+/// Nodes from which every bond exists, or those from which some are missing.
+fn whole<const D: usize>(
+    grid: &Grid<D>,
+    family: &[FamilyBond<D>],
+    present: &impl Present<D>,
+) -> impl Fn([isize; D]) -> bool {
+    let complete: Vec<bool> = grid
+        .each()
+        .map(|node| {
+            family.iter().all(|bond| present(node, bond.offset) && present(node, bond.offset.map(|n| -n)))
+        })
+        .collect();
+    let columns = grid.nodes[0];
+    move |node: [isize; D]| {
+        let row = node.get(1).copied().unwrap_or(0) as usize;
+        complete[row * columns + node[0] as usize]
+    }
+}

@@ -1,0 +1,126 @@
+//! Surface correction: factors for bonds near free edges, where families are cut off and the body is too soft.
+//!
+//! Energy (Madenci & Oterkus 2014, Peridynamic Theory and Its Applications, ch. 4): λ_i is the energy density of a bulk
+//! node over that of node i, both stretched uniformly along an axis; a bond takes the mean of its ends, between the axes
+//! along an ellipse, 1/√Σ (n_a/λ_a)². Volume (Le & Bobaru 2018, Comput. Mech. 61, 499): the factor is 2V₀/(V_i + V_j), V
+//! the counted volume of a family. Both are 1 in the bulk, exactly.
+
+use super::FamilyBond;
+use crate::constraints::Edges;
+use crate::grid::Grid;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Which correction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Correction {
+    #[default]
+    None,
+    Energy,
+    Volume,
+}
+
+impl Correction {
+    /// In study files and plans.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Energy => "energy",
+            Self::Volume => "volume",
+        }
+    }
+}
+
+/// The factors of a body's bonds.
+pub struct Factors<const D: usize> {
+    correction: Correction,
+    nodes: [usize; D],
+    edges: Edges<D>,
+    units: Vec<[f64; D]>,
+    offsets: Vec<[i32; D]>,
+    /// By node, row by row: bulk over node, energies along each axis, or the counted volume alone.
+    of_node: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Factors<D> {
+    /// `fractions` are the counted volume fractions of the half family, in its order.
+    pub fn new(
+        correction: Correction,
+        grid: &Grid<D>,
+        edges: Edges<D>,
+        family: &[FamilyBond<D>],
+        fractions: &[f64],
+    ) -> Self {
+        let share = |index: usize, axis: usize| match correction {
+            Correction::Volume => fractions[index],
+            _ => {
+                family[index].weight
+                    * (family[index].direction.xi[axis] * family[index].direction.unit[axis]).powi(2)
+            }
+        };
+        let total = |exists: &dyn Fn([i32; D]) -> bool| -> [f64; D] {
+            std::array::from_fn(|axis| {
+                let of = |(index, bond): (usize, &FamilyBond<D>)| {
+                    let ends = [bond.offset, bond.offset.map(|n| -n)];
+                    share(index, axis) * ends.into_iter().filter(|&offset| exists(offset)).count() as f64
+                };
+                family.iter().enumerate().map(of).sum()
+            })
+        };
+        let bulk = total(&|_| true);
+        let of = |node| {
+            let own = total(&|offset| edges.present(grid.nodes, node, offset));
+            std::array::from_fn(|axis| if own[axis] == bulk[axis] { 1.0 } else { bulk[axis] / own[axis] })
+        };
+        Self {
+            correction,
+            nodes: grid.nodes,
+            edges,
+            units: family.iter().map(|bond| bond.direction.unit).collect(),
+            offsets: family.iter().map(|bond| bond.offset).collect(),
+            of_node: grid.each().map(of).collect(),
+        }
+    }
+
+    /// The factor of the bond that `owner` (possibly a ghost) owns.
+    pub fn of(&self, owner: [isize; D], bond: usize) -> f64 {
+        let far = std::array::from_fn(|axis| owner[axis] + self.offsets[bond][axis] as isize);
+        let (near, far) = (self.at(owner), self.at(far));
+        match self.correction {
+            Correction::None => 1.0,
+            // 2V₀/(V_i + V_j) from V₀/V_i.
+            Correction::Volume => 2.0 / (1.0 / near[0] + 1.0 / far[0]),
+            Correction::Energy => {
+                let along = |axis: usize| self.units[bond][axis] / (0.5 * (near[axis] + far[axis]));
+                if near == far && near == [1.0; D] {
+                    1.0
+                } else {
+                    1.0 / (0..D).map(|axis| along(axis).powi(2)).sum::<f64>().sqrt()
+                }
+            }
+        }
+    }
+
+    /// Whether every bond of a node keeps its weight.
+    pub fn neutral(&self, node: [isize; D]) -> bool {
+        self.offsets.iter().enumerate().all(|(bond, offset)| {
+            let from = |sign: isize| std::array::from_fn(|axis| node[axis] + sign * offset[axis] as isize);
+            let (forward, backward): ([isize; D], [isize; D]) = (from(1), from(-1));
+            let inside = |other: [isize; D]| self.edges.image(self.nodes, other).is_some();
+            (!inside(forward) || self.of(node, bond) == 1.0)
+                && (!inside(backward) || self.of(backward, bond) == 1.0)
+        })
+    }
+
+    /// The largest factor: the frequencies of a body of positive weights grow by at most its root.
+    pub fn largest(&self) -> f64 {
+        self.of_node.iter().flatten().fold(1.0, |largest, factor| factor.max(largest))
+    }
+
+    fn at(&self, node: [isize; D]) -> [f64; D] {
+        let Some(image) = self.edges.image(self.nodes, node) else { return [1.0; D] };
+        let row = image.get(1).copied().unwrap_or(0);
+        self.of_node[(row * self.nodes[0] as isize + image[0]) as usize]
+    }
+}

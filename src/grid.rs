@@ -1,0 +1,162 @@
+//! A block of the lattice: where its nodes stand, the halo around them, and how a field of vectors lies in memory.
+//!
+//! Nodes stand at the centres of cells of size Δx. A field is a `Vec<f64>`, row after row; within a row one component
+//! after the other, each with a halo on both sides. A bar has one row; a plate has halo rows below and above too.
+//! So a bond is one distance in memory for every node, rows are contiguous for the vector units, and whole rows are
+//! contiguous for threads. Work is cut into fixed pieces that know nothing of threads: results do not depend on them.
+
+use std::ops::Range;
+
+/// Nodes of a piece of work, about: small enough for a core's cache, large enough to be worth a thread.
+const PIECE: usize = 8192;
+
+/// A block of nodes with its halo.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid<const D: usize> {
+    /// Nodes along each axis, without halo.
+    pub nodes: [usize; D],
+    /// Δx in m.
+    pub spacing: f64,
+    /// Ghost nodes on each side: the largest reach of any force.
+    pub halo: usize,
+    /// Global index of the block's first node; a body in one block starts at 0.
+    pub first: [usize; D],
+}
+
+/// Consecutive nodes of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Run {
+    /// Place of the first node's first component in a field.
+    pub start: usize,
+    pub len: usize,
+}
+
+impl<const D: usize> Grid<D> {
+    /// A whole body in one block.
+    pub fn new(nodes: [usize; D], spacing: f64, halo: usize) -> Self {
+        Self { nodes, spacing, halo, first: [0; D] }
+    }
+
+    /// How many nodes, without halo.
+    pub fn count(&self) -> usize {
+        self.nodes.iter().product()
+    }
+
+    /// From one component of a node to the next; also the length of a row of one component.
+    pub fn stride(&self) -> usize {
+        self.nodes[0] + 2 * self.halo
+    }
+
+    /// From one row to the next.
+    pub fn row(&self) -> usize {
+        D * self.stride()
+    }
+
+    /// Rows of nodes, without halo.
+    pub fn rows(&self) -> usize {
+        self.nodes.get(1).copied().unwrap_or(1)
+    }
+
+    /// Halo rows below, and as many above.
+    fn halo_rows(&self) -> usize {
+        if D == 1 { 0 } else { self.halo }
+    }
+
+    /// A field of zeros.
+    pub fn field(&self) -> Vec<f64> {
+        vec![0.0; self.row() * (self.rows() + 2 * self.halo_rows())]
+    }
+
+    /// Place of a node's first component; indices may reach into the halo.
+    pub fn place(&self, node: [isize; D]) -> usize {
+        let row = node.get(1).copied().unwrap_or(0) + self.halo_rows() as isize;
+        let place = row * self.row() as isize + node[0] + self.halo as isize;
+        debug_assert!(place >= 0);
+        place as usize
+    }
+
+    /// Distance in memory from a node to its neighbour at `offset`.
+    pub fn shift(&self, offset: [i32; D]) -> isize {
+        let rows = offset.get(1).copied().unwrap_or(0);
+        offset[0] as isize + rows as isize * self.row() as isize
+    }
+
+    /// Centre of a node's cell in m; the body's lower corner is the origin.
+    pub fn position(&self, node: [isize; D]) -> [f64; D] {
+        std::array::from_fn(|axis| (self.first[axis] as f64 + node[axis] as f64 + 0.5) * self.spacing)
+    }
+
+    /// All nodes, row by row.
+    pub fn each(&self) -> impl Iterator<Item = [isize; D]> + use<D> {
+        let columns = self.nodes[0];
+        (0..self.count()).map(move |n| {
+            let mut node = [(n % columns) as isize; D];
+            if let Some(row) = node.get_mut(1) {
+                *row = (n / columns) as isize;
+            }
+            node
+        })
+    }
+
+    /// Where the rows with nodes lie in a field.
+    pub fn body(&self) -> Range<usize> {
+        let first = self.halo_rows() * self.row();
+        first..first + self.rows() * self.row()
+    }
+
+    /// Length in memory of a piece of work; the last may be shorter.
+    pub fn piece(&self) -> usize {
+        if D == 1 { PIECE } else { self.row() * (PIECE / self.nodes[0]).max(1) }
+    }
+
+    /// Number of pieces.
+    pub fn pieces(&self) -> usize {
+        self.body().len().div_ceil(self.piece())
+    }
+
+    /// Nodes that belong to a set, as runs by piece.
+    pub fn runs(&self, belongs: impl Fn([isize; D]) -> bool) -> Vec<Vec<Run>> {
+        let mut pieces: Vec<Vec<Run>> = vec![Vec::new(); self.pieces()];
+        for node in self.each().filter(|node| belongs(*node)) {
+            let place = self.place(node);
+            let piece = &mut pieces[(place - self.body().start) / self.piece()];
+            match piece.last_mut() {
+                Some(run) if run.start + run.len == place => run.len += 1,
+                _ => piece.push(Run { start: place, len: 1 }),
+            }
+        }
+        pieces
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_are_one_shift_away() {
+        let grid = Grid::<2>::new([7, 5], 0.5, 3);
+        assert_eq!(grid.field().len(), 2 * 13 * 11);
+        for node in grid.each() {
+            let to = [node[0] - 2, node[1] + 3];
+            assert_eq!(grid.place(node).wrapping_add_signed(grid.shift([-2, 3])), grid.place(to));
+            assert!(grid.body().contains(&grid.place(node)));
+        }
+        assert_eq!(grid.position([0, 4]), [0.25, 2.25]);
+        assert_eq!(grid.place([-3, -3]), 0);
+    }
+
+    #[test]
+    fn runs_hold_each_node_once_and_keep_to_their_piece() {
+        let bar = Grid::<1>::new([20_000], 1.0, 5);
+        let runs = bar.runs(|node| node[0] % 1000 != 7);
+        assert_eq!(runs.len(), bar.pieces());
+        assert_eq!(runs.iter().flatten().map(|run| run.len).sum::<usize>(), 20_000 - 20);
+        for (piece, runs) in runs.iter().enumerate() {
+            let range = piece * bar.piece()..(piece + 1) * bar.piece();
+            assert!(runs.iter().all(|run| range.contains(&run.start) && run.start + run.len <= range.end));
+        }
+        let plate = Grid::<2>::new([300, 100], 1.0, 2);
+        assert_eq!(plate.runs(|_| true).iter().flatten().map(|run| run.len).sum::<usize>(), 30_000);
+    }
+}

@@ -1,0 +1,166 @@
+//! Time marching by leapfrog: d ← d + Δt²/ρ F(u), u ← u + d, with d = Δt times the velocity at the half step.
+//!
+//! Velocity Verlet and central differences are the same scheme written in other variables (tests/schemes.rs). Started
+//! with d = Δt v₀ − ½Δt² a₀ half a step before t = 0, it is second order from the first step on.
+
+use crate::forces::Now;
+use crate::ledger::Ledger;
+use crate::model::{Inertia, Model};
+use crate::scene::{Initial, Scene};
+
+/// A body in motion.
+pub struct March<'m, const D: usize> {
+    model: &'m Model<D>,
+    /// Δt in s.
+    time_step: f64,
+    step: u64,
+    displacement: Vec<f64>,
+    increment: Vec<f64>,
+    force: Vec<f64>,
+}
+
+impl<'m, const D: usize> March<'m, D> {
+    /// The body at t = 0, from the scene's initial fields.
+    pub fn new(model: &'m Model<D>, scene: &Scene<D>, time_step: f64) -> Self {
+        let start = |fields: &[Initial<D>], scale: f64| {
+            let mut values = model.grid.field();
+            for initial in fields {
+                for node in model.grid.each() {
+                    let place = model.grid.place(node) + initial.component * model.grid.stride();
+                    values[place] += scale * initial.at(model.grid.position(node));
+                }
+            }
+            values
+        };
+        let (displacement, increment) = (start(&scene.displacement, 1.0), start(&scene.velocity, time_step));
+        Self::from_fields(model, displacement, increment, time_step)
+    }
+
+    /// The body at t = 0 with displacement u and Δt v in m, as fields of the model's grid.
+    pub fn from_fields(
+        model: &'m Model<D>,
+        displacement: Vec<f64>,
+        velocity_step: Vec<f64>,
+        time_step: f64,
+    ) -> Self {
+        let force = model.grid.field();
+        let mut march =
+            Self { model, time_step, step: 0, displacement, increment: model.grid.field(), force };
+        for constraint in &model.constraints {
+            constraint.hold(0.0, &march.displacement, &mut march.increment);
+        }
+        add(&mut march.displacement, &march.increment);
+        march.increment = velocity_step;
+        model.fill_ghosts(&mut march.displacement);
+        let mut force = std::mem::take(&mut march.force);
+        model.force(&march.now(), &mut force);
+        accelerate(model, -0.5 * time_step * time_step, &force, &mut march.increment);
+        march.force = force;
+        march
+    }
+
+    /// t in s.
+    pub fn time(&self) -> f64 {
+        self.step as f64 * self.time_step
+    }
+
+    /// Steps done.
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// Δt in s.
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// u at the present time in m.
+    pub fn displacement(&self) -> &[f64] {
+        &self.displacement
+    }
+
+    /// u(n) − u(n−1) in m.
+    pub fn increment(&self) -> &[f64] {
+        &self.increment
+    }
+
+    /// The model that moves.
+    pub fn model(&self) -> &'m Model<D> {
+        self.model
+    }
+
+    /// The state in the terms of forces.
+    pub fn now(&self) -> Now<'_> {
+        Now {
+            displacement: &self.displacement,
+            increment: &self.increment,
+            time: self.time(),
+            time_step: self.time_step,
+        }
+    }
+
+    /// Marches on to a step. Nothing looks at the body in between.
+    pub fn advance_to(&mut self, step: u64) {
+        while self.step < step {
+            let mut force = std::mem::take(&mut self.force);
+            self.model.force(&self.now(), &mut force);
+            self.force = force;
+            self.move_on();
+        }
+    }
+
+    /// One step, with every force booked. The same bits as without.
+    pub fn advance_booked(&mut self, ledger: &mut Ledger<D>) {
+        let mut force = std::mem::take(&mut self.force);
+        ledger.sum_forces(self.model, &self.now(), &mut force);
+        self.force = force;
+        let before = ledger.remember(&self.increment);
+        self.move_on();
+        ledger.book(self.model, before, &self.force, self.time_step, &self.increment, &self.displacement);
+    }
+
+    /// The second half of a step, the force being known.
+    fn move_on(&mut self) {
+        accelerate(self.model, self.time_step * self.time_step, &self.force, &mut self.increment);
+        self.step += 1;
+        let next = self.time();
+        for constraint in &self.model.constraints {
+            constraint.hold(next, &self.displacement, &mut self.increment);
+        }
+        let increment = &self.increment;
+        let (start, piece) = (self.model.grid.body().start, self.model.grid.piece());
+        self.model.each_piece(&mut self.displacement, |index, u| {
+            let from = start + index * piece;
+            add(u, &increment[from..from + u.len()]);
+        });
+        self.model.fill_ghosts(&mut self.displacement);
+    }
+
+    /// Whether every displacement is a number.
+    pub fn is_finite(&self) -> bool {
+        self.displacement.iter().all(|u| u.is_finite())
+    }
+}
+
+fn add(to: &mut [f64], what: &[f64]) {
+    to.iter_mut().zip(what).for_each(|(to, what)| *to += what);
+}
+
+/// d ← d + scale/ρ F.
+fn accelerate<const D: usize>(model: &Model<D>, scale: f64, force: &[f64], increment: &mut [f64]) {
+    let (start, piece) = (model.grid.body().start, model.grid.piece());
+    model.each_piece(increment, |index, d| {
+        let range = start + index * piece..start + index * piece + d.len();
+        let force = &force[range.clone()];
+        match &model.inertia {
+            Inertia::Uniform(density) => {
+                let factor = scale / density;
+                d.iter_mut().zip(force).for_each(|(d, force)| *d += factor * force);
+            }
+            Inertia::Diagonal(densities) => {
+                let terms = force.iter().zip(&densities[range]);
+                d.iter_mut().zip(terms).for_each(|(d, (force, density))| *d += scale / density * force);
+            }
+        }
+    });
+}

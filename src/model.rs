@@ -1,0 +1,160 @@
+//! The equation of motion made concrete: ρ ü = Σ forces, under constraints, between edges.
+//!
+//! A model is the list of its terms. What a scene does not call for is not in the list and costs nothing.
+
+use crate::constraints::{Constraint, Edges};
+use crate::family::half_family;
+use crate::forces::surface::{Correction, Factors};
+use crate::forces::{BondList, Class, FamilyBond, Finite, Force, LatticeStencil, Law, Now, Small, family};
+use crate::grid::Grid;
+use crate::lattice::Stencil;
+use crate::scene::{Acts, Operator, Rotations, Scene, Setting, Wrong};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// What resists acceleration.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Inertia {
+    /// ρ in kg/m³, everywhere.
+    Uniform(f64),
+    /// A density for every place of a field; ghosts do not matter.
+    Diagonal(Vec<f64>),
+}
+
+/// A body ready to move.
+pub struct Model<const D: usize> {
+    pub grid: Grid<D>,
+    pub inertia: Inertia,
+    /// In m³.
+    pub cell_volume: f64,
+    pub edges: Edges<D>,
+    /// Ordered by class.
+    forces: Vec<Box<dyn Force<D>>>,
+    pub constraints: Vec<Box<dyn Constraint<D>>>,
+    /// Whether the forces are linear in u, so that ½uᵀKu is the elastic energy.
+    pub linear: bool,
+}
+
+impl<const D: usize> Model<D> {
+    /// The model of a scene that [`crate::plan::Plan::of`] accepts.
+    pub fn new(scene: &Scene<D>) -> Result<Self, Wrong> {
+        let unusable =
+            |wrong: crate::lattice::Unusable| Wrong::new("lattice.m", wrong.to_string(), wrong.cure());
+        let stencil = Stencil::<D>::new(scene.lattice).map_err(unusable)?;
+        let grid = Grid::new(scene.nodes, scene.spacing, stencil.reach());
+        let bonds = match scene.rotations {
+            Rotations::Small => bonds::<D, Small>(scene, &stencil, &grid),
+            Rotations::Finite => bonds::<D, Finite>(scene, &stencil, &grid),
+        };
+        let mut model = Self {
+            inertia: Inertia::Uniform(scene.material.density),
+            cell_volume: scene.cell_volume(),
+            edges: scene.edges,
+            forces: bonds,
+            constraints: Vec::new(),
+            linear: D == 1 || scene.rotations == Rotations::Small,
+            grid,
+        };
+        for (index, effect) in scene.effects.iter().enumerate() {
+            let setting = Setting { grid: &model.grid, density: scene.material.density };
+            match effect.act(&setting).map_err(|wrong| wrong.inside(&format!("effect[{index}]")))? {
+                Acts::Force(force) => model.add(force),
+                Acts::Constraint(constraint) => model.constraints.push(constraint),
+            }
+        }
+        Ok(model)
+    }
+
+    /// Adds a term, after those of its class.
+    pub fn add(&mut self, force: Box<dyn Force<D>>) {
+        let at = self.forces.partition_point(|other| other.class() <= force.class());
+        self.forces.insert(at, force);
+    }
+
+    /// The terms, in the order in which they are summed.
+    pub fn forces(&self) -> &[Box<dyn Force<D>>] {
+        &self.forces
+    }
+
+    /// Which terms are of a class.
+    pub fn of_class(&self, class: Class) -> Range<usize> {
+        let until = |class| self.forces.partition_point(|force| force.class() <= class);
+        let from = self.forces.partition_point(|force| force.class() < class);
+        from..until(class)
+    }
+
+    /// Adds some of the terms to a force field in N/m³. Threads share the pieces; no sum depends on how.
+    pub fn add_forces(&self, terms: Range<usize>, now: &Now<'_>, field: &mut [f64]) {
+        let terms = &self.forces[terms];
+        self.each_piece(field, |piece, sum| terms.iter().for_each(|force| force.add(now, piece, sum)));
+    }
+
+    /// The whole right-hand side ρü, in N/m³, into `field`.
+    pub fn force(&self, now: &Now<'_>, field: &mut [f64]) {
+        self.each_piece(field, |piece, sum| {
+            sum.fill(0.0);
+            self.forces.iter().for_each(|force| force.add(now, piece, sum));
+        });
+    }
+
+    /// Energy held by the forces that have a potential, in J.
+    pub fn energy(&self, now: &Now<'_>) -> f64 {
+        let pieces: Vec<f64> = (0..self.grid.pieces())
+            .into_par_iter()
+            .map(|piece| self.forces.iter().filter_map(|force| force.energy(now, piece)).sum())
+            .collect();
+        self.cell_volume * pieces.iter().sum::<f64>()
+    }
+
+    /// Does something with each piece of a field; with one piece no thread is woken.
+    pub(crate) fn each_piece(&self, field: &mut [f64], act: impl Fn(usize, &mut [f64]) + Send + Sync) {
+        let (body, piece) = (&mut field[self.grid.body()], self.grid.piece());
+        if self.grid.pieces() == 1 {
+            act(0, body);
+        } else {
+            body.par_chunks_mut(piece).enumerate().for_each(|(index, sum)| act(index, sum));
+        }
+    }
+
+    /// Fills the ghosts of a displacement field.
+    pub fn fill_ghosts(&self, displacement: &mut [f64]) {
+        self.edges.fill(&self.grid, displacement);
+    }
+}
+
+/// The bonds of a body. Nodes whose bonds all keep the lattice's weights are served by the operator asked for, the
+/// others, a band along corrected edges, by a list.
+fn bonds<const D: usize, L: Law>(
+    scene: &Scene<D>,
+    stencil: &Stencil<D>,
+    grid: &Grid<D>,
+) -> Vec<Box<dyn Force<D>>> {
+    let family = family(stencil, scene.modulus(), scene.spacing);
+    let present = |node, offset| scene.edges.present(scene.nodes, node, offset);
+    let factors = surface_factors(scene, &family, grid);
+    let neutral = |node| factors.as_ref().is_none_or(|factors| factors.neutral(node));
+    let mut forces: Vec<Box<dyn Force<D>>> = vec![match scene.operator {
+        Operator::Stencil => Box::new(LatticeStencil::<D, L>::new(grid, &family, neutral, &present)),
+        Operator::Bonds => Box::new(BondList::<D, L>::new(grid, &family, neutral, &present, |_, _| 1.0)),
+    }];
+    if let Some(factors) = &factors {
+        let banded = |node| !factors.neutral(node);
+        let factor = |owner, bond| factors.of(owner, bond);
+        forces.push(Box::new(BondList::<D, L>::new(grid, &family, banded, &present, factor)));
+    }
+    forces
+}
+
+/// The surface correction's factors; `None` when it is off.
+pub fn surface_factors<const D: usize>(
+    scene: &Scene<D>,
+    family: &[FamilyBond<D>],
+    grid: &Grid<D>,
+) -> Option<Factors<D>> {
+    let fractions: Vec<f64> = half_family::<D>(scene.lattice.m, scene.lattice.volume_rule)
+        .iter()
+        .map(|neighbour| neighbour.fraction)
+        .collect();
+    (scene.surface != Correction::None)
+        .then(|| Factors::new(scene.surface, grid, scene.edges, family, &fractions))
+}

@@ -1,0 +1,34 @@
+//! How long a scene lasts and how its time step is chosen.
+
+/// Duration and step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Time {
+    /// In s.
+    pub duration: f64,
+    pub step: StepRule,
+}
+
+/// How Δt is chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepRule {
+    /// At most this fraction of the lattice's sharp limit; made a little smaller so that whole steps fill the duration.
+    OfLimit(f64),
+    /// As given, in s; `beyond_limit` says that an unstable step is wanted.
+    Given { seconds: f64, beyond_limit: bool },
+}
+
+impl StepRule {
+    /// Δt in s and the number of steps that do not pass the duration, for a limit in s.
+    pub fn steps(self, duration: f64, limit: f64) -> (f64, u64) {
+        match self {
+            Self::OfLimit(fraction) => {
+                let steps = (duration / (fraction * limit) - 1e-9).ceil().max(1.0);
+                (duration / steps, steps as u64)
+            }
+            // A duration of whole steps must not lose the last one to rounding.
+            Self::Given { seconds, .. } => {
+                (seconds, (duration / seconds * (1.0 + 1e-12) + 1e-9).floor() as u64)
+            }
+        }
+    }
+}
