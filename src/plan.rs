@@ -72,6 +72,13 @@ impl Plan {
             bond_updates: (ends / 2).saturating_mul(steps),
         })
     }
+
+    /// The same plan, which also says which of these effects are off. Only who reads scenes knows all that there are.
+    pub fn beside(mut self, effects: impl IntoIterator<Item = String>) -> Self {
+        let off = effects.into_iter().filter(|name| !self.effects_on.contains(name));
+        self.effects_off.extend(off);
+        self
+    }
 }
 
 fn operator<const D: usize>(scene: &Scene<D>, band: usize) -> String {
@@ -150,16 +157,8 @@ fn effects<const D: usize>(scene: &Scene<D>) -> (Vec<String>, Vec<String>) {
         say(here, &format!("{} edge", edge.name()));
     }
     say(scene.probes.iter().any(|probe| probe.watch == Watch::Energies), "energy ledger");
-    for effect in EFFECTS {
-        if !scene.effects.iter().any(|on| on.name() == effect) {
-            off.push(effect.into());
-        }
-    }
     (on, off)
 }
-
-/// Names of all effects that a scene may ask for, so that a plan can say which are off.
-const EFFECTS: [&str; 4] = ["body force", "traction", "prescribed motion", "damping"];
 
 fn check_body<const D: usize>(scene: &Scene<D>) -> Result<Stencil<D>, Wrong> {
     let unusable = |wrong: Unusable| Wrong::new("lattice.m", wrong.to_string(), wrong.cure());

@@ -21,6 +21,13 @@ pub enum Command {
         #[command(flatten)]
         options: RunOptions,
     },
+    /// Bars marched in time against exact answers: the shipped studies, or the files given
+    Bar {
+        /// Study files; none means the shipped studies
+        files: Vec<PathBuf>,
+        #[command(flatten)]
+        options: RunOptions,
+    },
     /// Run study files of any kind
     Run {
         /// Study files

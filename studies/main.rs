@@ -3,19 +3,24 @@
 //! A study file is read and checked whole before anything is computed; its cases ask their questions of the library
 //! and of the reference, evidence is held against claims, and tables, figures and verdicts go to `reports/`.
 
+mod bar;
 mod bibliography;
 mod cli;
 mod commands;
 mod dispersion;
 mod input;
+mod kind;
 mod manifest;
 mod output;
 mod progress;
 mod question;
 mod run;
+mod scene;
+mod schema;
 mod shipped;
 mod study;
 mod subject;
+mod written;
 
 #[cfg(test)]
 #[path = "../tests/sabotage/mod.rs"]
@@ -25,6 +30,7 @@ use clap::{CommandFactory, Parser};
 use cli::{Cli, Command};
 use commands::{explain, judge, list, plan, say};
 use input::Refusal;
+use kind::Kind;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -42,14 +48,16 @@ fn main() -> ExitCode {
 fn command(cli: Cli) -> Result<u8, Refusal> {
     match cli.command {
         Command::Dispersion { files, options } => {
-            judge::shipped_or_files(study::Kind::Dispersion, "dispersion", &files, &options)
-                .map(judge::End::code)
+            judge::shipped_or_files(Kind::Dispersion, &files, &options).map(judge::End::code)
+        }
+        Command::Bar { files, options } => {
+            judge::shipped_or_files(Kind::Bar, &files, &options).map(judge::End::code)
         }
         Command::Run { files, options } => judge::files(&files, &options).map(judge::End::code),
         Command::List { json } => print(&list::list(json)?),
         Command::Explain { id, bibtex } => print(&explain::explain(&id, bibtex)?),
         Command::Plan { study, json, profile, set } => print(&plan::plan(&study, json, profile, &set)?),
-        Command::Schema => print(&format!("{:#}\n", study::schema())),
+        Command::Schema => print(&format!("{:#}\n", schema::schema())),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "pd-verify", &mut script);

@@ -7,6 +7,9 @@ use pd_verify::table::Table;
 use pd_verify::verdict::Evidence;
 use std::fmt;
 
+/// What a case marches in time: one scene, planned.
+pub type Planned = pd_verify::plan::Plan;
+
 /// How much of a study is run. Chooses levels and cases, never a bound.
 #[derive(
     Debug,
@@ -53,10 +56,28 @@ pub struct Effort {
     pub curves: u64,
     /// Frequencies evaluated by the code under judgement.
     pub evaluations: u64,
-    /// Bonds visited by those evaluations, quadrature points in the continuum.
+    /// Bonds visited by those evaluations and by marching; quadrature points in the continuum.
     pub bond_evaluations: u64,
     /// Frequencies evaluated by the reference.
     pub reference_evaluations: u64,
+    /// Nodes moved by one step, over all steps of what is marched in time.
+    pub node_updates: u64,
+}
+
+impl Effort {
+    /// The work of marching scenes.
+    pub fn of_scenes(scenes: &[Planned]) -> Self {
+        let mut total = Self::default();
+        for scene in scenes {
+            total += Self {
+                curves: 1,
+                bond_evaluations: scene.bond_updates,
+                node_updates: scene.node_updates,
+                ..Self::default()
+            };
+        }
+        total
+    }
 }
 
 impl std::ops::AddAssign for Effort {
@@ -65,6 +86,7 @@ impl std::ops::AddAssign for Effort {
         self.evaluations = self.evaluations.saturating_add(other.evaluations);
         self.bond_evaluations = self.bond_evaluations.saturating_add(other.bond_evaluations);
         self.reference_evaluations = self.reference_evaluations.saturating_add(other.reference_evaluations);
+        self.node_updates = self.node_updates.saturating_add(other.node_updates);
     }
 }
 
@@ -76,12 +98,30 @@ pub struct Answer {
     pub figures: Vec<Figure>,
 }
 
+impl Answer {
+    /// Where the computation failed: every claim is an error, for this reason.
+    pub fn failed(claims: &[Claim], reason: &str) -> Self {
+        let name = |claim: &Claim| claim.id.rsplit('/').next().unwrap_or_default().to_owned();
+        let error = Evidence { failed: Some(reason.to_owned()), ..Evidence::default() };
+        Self {
+            evidence: claims.iter().map(|claim| (name(claim), error.clone())).collect(),
+            ..Self::default()
+        }
+    }
+}
+
 /// A case's question, ready to be asked.
 pub trait Question: Send + Sync {
     /// What is claimed, with every bound and its reason; computes nothing.
     fn claims(&self, place: &Place) -> Vec<Claim>;
-    /// What answering costs; computes nothing.
-    fn effort(&self) -> Effort;
+    /// What the case marches in time; computes nothing but sizes and time steps.
+    fn scenes(&self) -> Vec<Planned> {
+        Vec::new()
+    }
+    /// What answering costs; computes nothing. Left out where marching the scenes is all there is to do.
+    fn effort(&self) -> Effort {
+        Effort::of_scenes(&self.scenes())
+    }
     /// The equations the claims are about, one per line.
     fn equations(&self) -> &'static str;
     /// Asks `subject`, holds its answers against the reference.

@@ -76,6 +76,7 @@ fn run_case(case: &Case, subject: &dyn Subject, ran: &mut Ran) {
     match answer {
         Ok(answer) => {
             let Answer { evidence, tables, figures } = answer;
+            ran.failed |= evidence.iter().any(|(_, evidence)| evidence.failed.is_some());
             ran.judged.extend(weigh(claims, evidence, seconds));
             tables.into_iter().for_each(|table| merge(&mut ran.tables, table));
             ran.figures.extend(figures);

@@ -1,16 +1,18 @@
 //! The studies that come with the program, built in so that it runs from any folder.
 
-use crate::input::{Refusal, Setting};
-use crate::study::{Kind, Study};
+use crate::input::{Document, Refusal, Setting};
+use crate::kind::Kind;
+use crate::study::Study;
 
 /// File names and texts, in the order in which they are listed and run.
-pub const SHIPPED: [(&str, &str); 6] = [
+pub const SHIPPED: &[(&str, &str)] = &[
     ("studies/dispersion/bar.toml", include_str!("dispersion/bar.toml")),
     ("studies/dispersion/plane.toml", include_str!("dispersion/plane.toml")),
     ("studies/dispersion/lattice.toml", include_str!("dispersion/lattice.toml")),
     ("studies/dispersion/joint.toml", include_str!("dispersion/joint.toml")),
     ("studies/dispersion/oracles.toml", include_str!("dispersion/oracles.toml")),
     ("studies/dispersion/misprints.toml", include_str!("dispersion/misprints.toml")),
+    ("studies/bar/release.toml", include_str!("bar/release.toml")),
 ];
 
 /// All shipped studies of a kind (or all), with `--set` changes; a setting that no study has a place for is refused.
@@ -18,18 +20,26 @@ pub fn shipped(kind: Option<Kind>, settings: &[Setting]) -> Result<Vec<Study>, R
     let mut studies = Vec::new();
     let mut used = vec![false; settings.len()];
     for (name, text) in SHIPPED {
-        let (study, found) = Study::read(name, text, settings)?;
-        if kind.is_none_or(|kind| kind == study.kind) {
-            used.iter_mut().zip(found).for_each(|(used, found)| *used |= found);
-            if studies.iter().any(|other: &Study| other.id == study.id) {
-                return Err(Refusal::new(format!("id \"{}\" is the id of another shipped study", study.id))
-                    .help("leave the ids of shipped studies alone"));
-            }
-            studies.push(study);
+        // Settings are for the kind that is asked for; a study of another kind may not even bear them.
+        if kind.is_some_and(|kind| !is_of(kind, name, text)) {
+            continue;
         }
+        let (study, found) = Study::read(name, text, settings)?;
+        used.iter_mut().zip(found).for_each(|(used, found)| *used |= found);
+        if studies.iter().any(|other: &Study| other.id == study.id) {
+            return Err(Refusal::new(format!("id \"{}\" is the id of another shipped study", study.id))
+                .help("leave the ids of shipped studies alone"));
+        }
+        studies.push(study);
     }
     refuse_unused(settings, &used)?;
     Ok(studies)
+}
+
+/// Whether a study's text gives itself this kind.
+fn is_of(kind: Kind, name: &str, text: &str) -> bool {
+    let document = Document::parse(name, text);
+    document.is_ok_and(|document| document.get("kind").is_some_and(|word| word == kind.word()))
 }
 
 /// Refuses the first setting that found no place.
@@ -72,6 +82,19 @@ mod tests {
             total += study.effort(crate::question::Profile::Quick);
         }
         assert!(total.bond_evaluations < 100_000_000 && total.reference_evaluations < 40_000, "{total:?}");
+    }
+
+    #[test]
+    fn every_case_says_what_it_costs() {
+        for case in shipped(None, &[]).unwrap().iter().flat_map(|study| &study.cases) {
+            assert_ne!(case.question.effort(), crate::question::Effort::default(), "{}", case.place.case);
+        }
+    }
+
+    #[test]
+    fn each_study_is_of_one_kind() {
+        let of_kinds: usize = Kind::ALL.iter().map(|&kind| shipped(Some(kind), &[]).unwrap().len()).sum();
+        assert_eq!(of_kinds, SHIPPED.len());
     }
 
     #[test]

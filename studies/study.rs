@@ -1,8 +1,9 @@
 //! A study: a question with a file. Its header, its cases, and the checks that need no computation.
 
-use crate::dispersion::{COMMON_KEYS, TABLES, Written, read_case};
-use crate::input::{Document, Positive, Refusal, Setting, other_units};
+use crate::input::{Document, Positive, Refusal, Setting};
+use crate::kind::Kind;
 use crate::question::{Effort, Place, Profile, Question};
+use crate::written::{COMMON_KEYS, Written};
 use pd_verify::claim::Claim;
 use pd_verify::material::Material;
 use schemars::JsonSchema;
@@ -13,17 +14,10 @@ use std::collections::HashSet;
 /// The version of the format that this program reads.
 pub const FORMAT: u64 = 1;
 
-/// Kinds of study that this program runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    Dispersion,
-}
-
 /// The head of a study file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Header {
+pub struct Header {
     /// Folder name of the results: lower-case letters, digits, `-` and `_`.
     id: String,
     kind: Kind,
@@ -47,7 +41,7 @@ struct MaterialAsked {
 
 /// The parts of a case that all kinds share.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
-struct CaseHeader {
+pub struct CaseHeader {
     id: String,
     asks: String,
     title: Option<String>,
@@ -103,7 +97,7 @@ impl Study {
             density: asked.density_kg_m3.0,
         });
         let ratio = header.material.as_ref().and_then(|asked| asked.poisson_ratio);
-        let cases = read_cases(&document, &header.id, material, ratio)?;
+        let cases = read_cases(&document, &header, material, ratio)?;
         let Header { id, kind, title, about, source, .. } = header;
         let (about, source) = (about.unwrap_or_default(), source.unwrap_or_default());
         Ok(Self { id, kind, title, about, source, document, cases })
@@ -143,8 +137,9 @@ fn check_id(document: &Document, path: &str, id: &str) -> Result<(), Refusal> {
 }
 
 /// A case's figure is called like the case; it must not take the place of a table.
-fn check_figure_name(document: &Document, path: &str, id: &str, asks: &str) -> Result<(), Refusal> {
-    if !TABLES.contains(&id) || asks == id {
+fn check_figure_name(document: &Document, kind: Kind, path: &str, case: &CaseHeader) -> Result<(), Refusal> {
+    let id = case.id.as_str();
+    if !kind.tables().contains(&id) || case.asks == id {
         return Ok(());
     }
     Err(document.refuse(path, format!("\"{id}\" is the name of a table")).help("choose another id"))
@@ -176,7 +171,7 @@ const SUFFIXES: [&str; 4] = ["-velocity", "-full", "-linear", "-exact-area"];
 
 fn read_cases(
     document: &Document,
-    study: &str,
+    study: &Header,
     material: Option<Material>,
     ratio: Option<f64>,
 ) -> Result<Vec<Case>, Refusal> {
@@ -219,7 +214,7 @@ fn read_cases(
 
 fn read_one(
     document: &Document,
-    study: &str,
+    study: &Header,
     material: Option<Material>,
     index: usize,
     value: &Value,
@@ -231,83 +226,11 @@ fn read_one(
     }
     let header: CaseHeader = document.read(&path, &common, &[])?;
     check_id(document, &format!("{path}.id"), &header.id)?;
-    check_figure_name(document, &format!("{path}.id"), &header.id, &header.asks)?;
+    check_figure_name(document, study.kind, &format!("{path}.id"), &header)?;
     let title = header.title.unwrap_or_else(|| header.id.clone());
-    let question = read_case(&header.asks, &Written { document, path, value, title: &title, material })?;
-    let place = Place { study: study.to_owned(), case: header.id };
+    let written = Written { document, path, value, title: &title, material };
+    let question = study.kind.read_case(&header.asks, &written)?;
+    let place = Place { study: study.id.clone(), case: header.id };
     let profile = header.profile.unwrap_or(Profile::Quick);
     Ok(Case { place, title, asks: header.asks, profile, question })
-}
-
-/// The JSON schema of study files.
-pub fn schema() -> Value {
-    let mut generator = schemars::generate::SchemaSettings::draft2020_12().into_generator();
-    let mut header = Header::json_schema(&mut generator).to_value();
-    let common = CaseHeader::json_schema(&mut generator).to_value();
-    let kinds: Vec<Value> = crate::dispersion::case_schemas(&mut generator)
-        .into_iter()
-        .map(|(asks, schema)| merged_case(asks, schema.to_value(), &common))
-        .collect();
-    header["properties"]["case"] = serde_json::json!({
-        "type": "array", "minItems": 1, "items": { "oneOf": kinds },
-        "description": "What is asked. Numbers are SI; a key may instead end in another unit of its kind (dx_mm for dx_m)."
-    });
-    if let Some(required) = header["required"].as_array_mut() {
-        required.extend(["format".into(), "case".into()]);
-    }
-    header["$schema"] = "https://json-schema.org/draft/2020-12/schema".into();
-    header["title"] = "pd-verify study file".into();
-    header["properties"]["format"] =
-        serde_json::json!({ "const": FORMAT, "description": "Version of the format." });
-    header["$defs"] = Value::Object(generator.take_definitions(true).into_iter().collect());
-    with_units(&mut header);
-    header
-}
-
-/// Adds every key's forms in other units, and lets any of them stand for a required one.
-fn with_units(schema: &mut Value) {
-    let required: Vec<String> = schema["required"]
-        .as_array()
-        .into_iter()
-        .flatten()
-        .filter_map(|key| key.as_str().map(str::to_owned))
-        .collect();
-    let mut choices = Vec::new();
-    if let Some(properties) = schema.get_mut("properties").and_then(Value::as_object_mut) {
-        for (key, value) in properties.clone() {
-            let forms = other_units(&key);
-            if !forms.is_empty() && required.contains(&key) {
-                let any: Vec<Value> = forms
-                    .iter()
-                    .chain([&key])
-                    .map(|form| serde_json::json!({ "required": [form] }))
-                    .collect();
-                choices.push((key, serde_json::json!({ "anyOf": any })));
-            }
-            properties.extend(forms.into_iter().map(|form| (form, value.clone())));
-        }
-    }
-    if !choices.is_empty() {
-        let kept: Vec<&String> =
-            required.iter().filter(|key| choices.iter().all(|(other, _)| other != *key)).collect();
-        schema["required"] = serde_json::json!(kept);
-        schema["allOf"] = choices.into_iter().map(|(_, choice)| choice).collect();
-    }
-    match schema {
-        Value::Object(table) => table.values_mut().for_each(with_units),
-        Value::Array(items) => items.iter_mut().for_each(with_units),
-        _ => {}
-    }
-}
-
-/// A case of one kind: its own keys and those of every case.
-fn merged_case(asks: &str, mut schema: Value, common: &Value) -> Value {
-    for (key, value) in common["properties"].as_object().into_iter().flatten() {
-        schema["properties"][key] = value.clone();
-    }
-    schema["properties"]["asks"] = serde_json::json!({ "const": asks });
-    let mut required = schema["required"].as_array().cloned().unwrap_or_default();
-    required.extend(["id".into(), "asks".into()]);
-    schema["required"] = Value::Array(required);
-    schema
 }

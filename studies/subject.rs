@@ -13,8 +13,12 @@ use pd_verify::kernel::Kernel;
 use pd_verify::lattice::{Lattice, Stencil, Unusable};
 use pd_verify::material::Body;
 use pd_verify::micromodulus;
+use pd_verify::model::Model;
+use pd_verify::record::{self, Failure, Record};
+use pd_verify::scene::Scene;
+use pd_verify::statics;
 
-/// What a dispersion study asks of a peridynamics code.
+/// What studies ask of a peridynamics code.
 pub trait Subject: Sync {
     /// c₀ in N/m⁶.
     fn micromodulus(
@@ -104,6 +108,23 @@ pub trait Subject: Sync {
     /// The same with impedances at equal ω; `None` where the right chain carries no such wave.
     fn reflection_at_equal_frequency(&self, left: &Chain, right: &Chain, theta: f64) -> Option<f64> {
         joint::impedances_at_equal_frequency(left, right, theta)
+    }
+
+    /// Marches a bar and returns what its probes saw.
+    fn march_bar(&self, scene: &Scene<1>) -> Result<Record, Failure> {
+        record::run(scene)
+    }
+
+    /// Marches a plate and returns what its probes saw.
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        record::run(scene)
+    }
+
+    /// Displacements in m of a bar's nodes at rest under the loads of t = 0.
+    fn rest_bar(&self, scene: &Scene<1>) -> Result<Vec<f64>, String> {
+        let model = Model::new(scene).map_err(|wrong| wrong.message)?;
+        let rest = statics::rest(&model, 1e-14, 100 * model.grid.count()).map_err(|none| none.to_string())?;
+        Ok(model.grid.each().map(|node| rest.displacement[model.grid.place(node)]).collect())
     }
 
     /// What a joint sends back of the left chain's wave.

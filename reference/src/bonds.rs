@@ -39,6 +39,8 @@ pub struct Lattice {
 pub(crate) struct BarBond {
     /// r, at least 1.
     pub(crate) offset: f64,
+    /// Share of the node's volume that counts.
+    pub(crate) fraction: Dd,
     /// w of one of the two.
     pub(crate) weight: Dd,
 }
@@ -103,7 +105,7 @@ pub(crate) fn bar(lattice: &Lattice) -> Vec<BarBond> {
         .filter(|(_, fraction)| fraction.hi > 0.0)
         .map(|(offset, fraction)| {
             let r = Dd::from(offset);
-            BarBond { offset, weight: factor * fraction * lattice.kernel.weight(r / m) / r }
+            BarBond { offset, fraction, weight: factor * fraction * lattice.kernel.weight(r / m) / r }
         })
         .collect()
 }

@@ -26,13 +26,17 @@ pub mod cell;
 pub mod continuum;
 pub mod double_double;
 pub mod finite_differences;
+pub mod front;
 pub mod lattice;
+pub mod lattice_modes;
 pub mod leapfrog;
 pub mod micromodulus;
 pub mod nonlocal_pulse;
 pub mod oracles;
+pub mod pulse_bar;
 pub mod released_bar;
 pub mod scattering;
+pub mod static_bar;
 
 mod absorbing;
 mod band_edge;

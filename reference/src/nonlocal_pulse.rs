@@ -3,7 +3,7 @@
 //! u(x, 0) = exp(−a x²), u̇(x, 0) = 0. Each wave keeps its amplitude and turns with its own frequency,
 //! u(x, t) = (1/π) ∫₀^∞ √(π/a) e^{−k²/4a} cos kx cos ω(k)t dk, ω(k) of the nonlocal continuum (Weckner and Abeyaratne,
 //! J. Mech. Phys. Solids 53 (2005) 705). The integrand is even and analytic, so the trapezoidal rule of step h errs by
-//! the pulses of neighbouring periods 2π/h alone; the period is chosen to keep them away.
+//! the pulses of neighbouring periods 2π/h alone: the period is chosen to keep them away, or is that of a ring.
 
 use crate::continuum;
 use crate::kernel::Kernel;
@@ -21,11 +21,20 @@ pub struct NonlocalPulse {
 const LARGEST_K: f64 = 12.6;
 
 impl NonlocalPulse {
-    /// A pulse exp(−a (x/δ)²), to be asked for |x|/δ + vt/δ up to `reach`. None where its shortest waves lie beyond
-    /// the continuum's range.
+    /// A pulse exp(−a (x/δ)²) in the infinite bar, to be asked for |x|/δ + vt/δ up to `reach`. None where its shortest
+    /// waves lie beyond the continuum's range.
     pub fn new(kernel: Kernel, sharpness: f64, reach: f64) -> Option<Self> {
         let width = 7.0 / sharpness.sqrt();
-        let step = TAU / (2.0 * (reach + width));
+        Self::with_step(kernel, sharpness, TAU / (2.0 * (reach + width)), reach)
+    }
+
+    /// The same pulse repeated with the period `period`/δ, at any x and t: a ring. A bar of length L, odd about its
+    /// left and even about its right end, is a ring of period 4L with the four pulses of [`crate::pulse_bar`].
+    pub fn periodic(kernel: Kernel, sharpness: f64, period: f64) -> Option<Self> {
+        Self::with_step(kernel, sharpness, TAU / period, f64::INFINITY)
+    }
+
+    fn with_step(kernel: Kernel, sharpness: f64, step: f64, reach: f64) -> Option<Self> {
         let count = (LARGEST_K * sharpness.sqrt() / step).ceil() as usize;
         let wave = |n: usize| {
             let k = n as f64 * step;
@@ -38,10 +47,17 @@ impl NonlocalPulse {
 
     /// u at x/δ and vt/δ; None outside the reach asked for.
     pub fn displacement(&self, x: f64, t: f64) -> Option<f64> {
+        self.sum(x, t, |k| libm::cos(k * x))
+    }
+
+    /// δ ∂u/∂x at x/δ and vt/δ; None outside the reach asked for.
+    pub fn strain(&self, x: f64, t: f64) -> Option<f64> {
+        self.sum(x, t, |k| -k * libm::sin(k * x))
+    }
+
+    fn sum(&self, x: f64, t: f64, shape: impl Fn(f64) -> f64) -> Option<f64> {
         let inside = x.abs() + t.abs() <= self.reach;
-        let sum = || {
-            self.waves.iter().map(|(k, omega, weight)| weight * libm::cos(k * x) * libm::cos(omega * t)).sum()
-        };
-        inside.then(sum)
+        let wave = |(k, omega, weight): &(f64, f64, f64)| weight * shape(*k) * libm::cos(omega * t);
+        inside.then(|| self.waves.iter().map(wave).sum())
     }
 }

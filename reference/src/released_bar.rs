@@ -1,13 +1,10 @@
-//! A bar stretched by a force, held at the left end and let go at the right: exact strain, its Fourier series, and the
-//! exact motion of its lattices.
+//! A bar stretched by a force, held at the left end and let go at the right: exact motion and its Fourier series.
 //!
 //! ρü = E u'', u(0, t) = 0, u'(L, t) = 0, u(x, 0) = ε₀x, u̇(x, 0) = 0, ε₀ = F/(EA). D'Alembert: the initial strain, even
-//! about x = 0 and odd about x = L, travels half to the left and half to the right. A lattice with nodes at cell centres,
-//! u odd about x = 0 and even about x = L, moves in the modes sin((2n+1)πx/2L) of the same wavenumbers, each with the
-//! frequency of the infinite lattice: no boundary is approximated.
+//! about x = 0 and odd about x = L, travels half to the left and half to the right. The lattices of this bar are in
+//! [`LatticeModes`].
 
-use crate::bonds::Lattice;
-use crate::{lattice, leapfrog};
+pub use crate::lattice_modes::LatticeModes;
 use std::f64::consts::PI;
 
 /// Length in m, wave speed √(E/ρ) in m/s and strain ε₀ at the release.
@@ -71,52 +68,5 @@ impl ReleasedBar {
                 * libm::cos(wave * self.speed * t / self.length)
         };
         self.strain * self.length * (0..terms).map(term).sum::<f64>()
-    }
-}
-
-/// The exact motion of a lattice of the released bar.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LatticeModes {
-    /// Over ε₀L, by mode.
-    amplitudes: Vec<f64>,
-    /// ωΔx/v, by mode.
-    frequencies: Vec<f64>,
-}
-
-impl LatticeModes {
-    /// Modes of a bar of `nodes` cells in exact time, or marched by leapfrog at `courant` = vΔt/Δx. None where leapfrog
-    /// is unstable.
-    pub fn new(of: Lattice, nodes: usize, courant: Option<f64>) -> Option<Self> {
-        let wavenumber = |n: usize| (2 * n + 1) as f64 * PI / (2 * nodes) as f64;
-        let frequency = |n: usize| {
-            let wave = lattice::bar(of, wavenumber(n));
-            courant.map_or(Some(wave), |courant| leapfrog::wave(wave, courant)).map(|wave| wave.omega)
-        };
-        // The sines are orthogonal over the cell centres: Σ_j sin² = N/2.
-        let amplitude = |n: usize| {
-            let project = |j: usize| (j as f64 + 0.5) * libm::sin(wavenumber(n) * (j as f64 + 0.5));
-            2.0 / (nodes * nodes) as f64 * (0..nodes).map(project).sum::<f64>()
-        };
-        let frequencies = (0..nodes).map(frequency).collect::<Option<Vec<f64>>>()?;
-        Some(Self { amplitudes: (0..nodes).map(amplitude).collect(), frequencies })
-    }
-
-    /// Displacement of node j = 0, 1, … over ε₀L, at `time` = vt/Δx.
-    pub fn displacement(&self, j: usize, time: f64) -> f64 {
-        self.sum(time, |wavenumber| libm::sin(wavenumber * (j as f64 + 0.5)))
-    }
-
-    /// (u_j − u_{j−1})/Δx over ε₀, at `time` = vt/Δx: the strain half-way between two nodes, j ≥ 1.
-    pub fn strain(&self, j: usize, time: f64) -> f64 {
-        let nodes = self.amplitudes.len() as f64;
-        let slope = |wavenumber: f64| 2.0 * libm::cos(wavenumber * j as f64) * libm::sin(0.5 * wavenumber);
-        nodes * self.sum(time, slope)
-    }
-
-    fn sum(&self, time: f64, shape: impl Fn(f64) -> f64) -> f64 {
-        let nodes = self.amplitudes.len();
-        let wavenumber = |n: usize| (2 * n + 1) as f64 * PI / (2 * nodes) as f64;
-        let modes = self.amplitudes.iter().zip(&self.frequencies).enumerate();
-        modes.map(|(n, (a, omega))| a * shape(wavenumber(n)) * libm::cos(omega * time)).sum()
     }
 }

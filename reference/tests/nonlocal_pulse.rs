@@ -59,3 +59,32 @@ fn lattices_converge_to_it_at_second_order_in_one_over_m() {
         assert!((order - 2.0).abs() < 0.05, "{order}");
     }
 }
+
+#[test]
+fn strain_is_the_slope_of_displacement() {
+    let pulse = NonlocalPulse::new(Kernel::Conical, 2.0, 12.0).expect("within the continuum's range");
+    for (x, t) in [(0.0, 0.0), (0.4, 0.0), (-1.1, 2.3), (3.0, 4.0)] {
+        let at = |x: f64| pulse.displacement(x, t).expect("within reach");
+        let slope = |h: f64| (at(x + h) - at(x - h)) / (2.0 * h);
+        let found = (4.0 * slope(1e-3) - slope(2e-3)) / 3.0;
+        assert!((found - pulse.strain(x, t).expect("within reach")).abs() < 1e-10, "{x} {t}");
+    }
+    let given = -4.0 * 0.4 * (-2.0_f64 * 0.16).exp();
+    assert!((pulse.strain(0.4, 0.0).expect("within reach") - given).abs() < 1e-14);
+    assert!(pulse.strain(12.0, 1.0).is_none());
+}
+
+#[test]
+fn a_ring_repeats_the_pulse_of_the_infinite_bar() {
+    let (sharpness, period) = (2.0, 30.0);
+    let kernel = Kernel::Gaussian { p: 2.0 };
+    let ring = NonlocalPulse::periodic(kernel, sharpness, period).expect("within the continuum's range");
+    let one = NonlocalPulse::new(kernel, sharpness, 120.0).expect("within the continuum's range");
+    for (x, t) in [(0.3, 0.0), (2.0, 4.0), (14.0, 13.0), (29.0, 20.0)] {
+        let copies: f64 =
+            (-2..=2).map(|n| one.displacement(x + f64::from(n) * period, t).expect("within reach")).sum();
+        let found = ring.displacement(x, t).expect("a ring has no end");
+        assert!((found - copies).abs() < 1e-13, "{x} {t}: {found} {copies}");
+        assert!((ring.displacement(x + 5.0 * period, t).expect("no end") - found).abs() < 1e-12);
+    }
+}

@@ -88,10 +88,15 @@ mod tests {
         let rows = ["0.25,1,0.1", "0.75,1,", "0.25,3,-2", "0.75,3,0"];
         let rows = rows.map(|row| format!("bar,strain (1),x (m),t (s),{row}\n")).concat();
         assert_eq!(text, format!("panel,series,x_axis,y_axis,x,y,value\n{rows}"));
-        let line = Lines::new(Axis::linear("x"), Axis::linear("y"), vec![Series::line("a", vec![(1.0, 2.0)])]);
-        let Panel::Raster(raster) = Figure::new("f", "", "", line.clone()).panel(line).panels.remove(0) else {
-            return;
-        };
-        drop(raster);
+    }
+
+    #[test]
+    fn beside_a_raster_curves_leave_the_value_empty() {
+        let line =
+            Lines::new(Axis::linear("x"), Axis::linear("y"), vec![Series::line("a", vec![(1.0, 2.0)])]);
+        let raster =
+            Raster::new(Axis::linear("i"), Axis::linear("j"), Axis::linear("v"), vec![vec![Some(7.0)]]);
+        let text = figure_table(&Figure::new("f", "", "", line).panel(raster)).csv();
+        assert_eq!(text, "panel,series,x_axis,y_axis,x,y,value\n1,a,x,y,1,2,\n2,v,i,j,0.5,0.5,7\n");
     }
 }

@@ -3,12 +3,13 @@
 use super::say;
 use crate::cli::RunOptions;
 use crate::input::{MAX_BYTES, Refusal, Setting};
+use crate::kind::Kind;
 use crate::manifest::{Manifest, StudyHash};
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::run::{Ran, merge, run};
 use crate::shipped::{refuse_unused, shipped};
-use crate::study::{Kind, Study};
+use crate::study::Study;
 use crate::subject::PdVerify;
 use pd_verify::report::{
     Drawn, RunSummary, StudyReport, figure_table, index_html, junit_xml, summary_markdown, terminal_table,
@@ -47,18 +48,13 @@ struct Group {
 }
 
 /// The shipped studies of a kind, all in one folder, or the files given, each in its own.
-pub fn shipped_or_files(
-    kind: Kind,
-    folder: &str,
-    files: &[PathBuf],
-    options: &RunOptions,
-) -> Result<End, Refusal> {
+pub fn shipped_or_files(kind: Kind, files: &[PathBuf], options: &RunOptions) -> Result<End, Refusal> {
     let settings = settings(&options.set)?;
     if !files.is_empty() {
         return compute(read_files(files, Some(kind), &settings)?, options);
     }
     let studies = shipped(Some(kind), &settings)?;
-    compute(vec![Group { folder: folder.to_owned(), studies }], options)
+    compute(vec![Group { folder: kind.word().to_owned(), studies }], options)
 }
 
 /// Any study files, each with a folder of its own.
@@ -80,7 +76,7 @@ fn read_files(files: &[PathBuf], kind: Option<Kind>, settings: &[Setting]) -> Re
     let mut groups: Vec<Group> = Vec::new();
     let mut used = vec![false; settings.len()];
     for file in files {
-        let cure = "give the path of a study file; `pd-verify dispersion` runs the shipped studies";
+        let cure = "give the path of a study file; `pd-verify dispersion` and `pd-verify bar` run the shipped studies";
         let text = read_text(file, cure)?;
         let (study, found) = Study::read(&file.display().to_string(), &text, settings)?;
         used.iter_mut().zip(found).for_each(|(used, found)| *used |= found);

@@ -19,22 +19,25 @@ pub fn list(as_json: bool) -> Result<String, Refusal> {
         text += &format!("{}\n  {}\n", study.id, study.title);
         let claim = study.about.split("\n\n").next().unwrap_or_default();
         text += &format!("{}\n", textwrap::indent(&textwrap::fill(claim, 96), "    "));
-        text += &format!("  source: {}\n", study.source);
+        text += &format!("  kind: {}\n  source: {}\n", study.kind.word(), study.source);
         text += &format!("  {} cases, {claims} claims, {}\n", study.cases.len(), cost(study));
         for case in &study.cases {
             text += &format!("    {:<34} {}\n", format!("{}/{}", study.id, case.place.case), case.title);
         }
         text += "\n";
     }
-    text +=
-        "Run them with `pd-verify dispersion`; `pd-verify explain ID` says what an entry claims and why.\n";
+    text += "Run all of a kind with `pd-verify dispersion` or `pd-verify bar`; `pd-verify explain ID` says what an entry claims and why.\n";
     Ok(text)
 }
 
 fn cost(study: &Study) -> String {
     let effort = study.effort(Profile::Standard);
+    let marched = match effort.node_updates {
+        0 => String::new(),
+        updates => format!(", {:.0e} node updates", updates as f64),
+    };
     format!(
-        "about {:.0e} bond evaluations, {} by the reference",
+        "about {:.0e} bond evaluations{marched}, {} by the reference",
         effort.bond_evaluations as f64, effort.reference_evaluations
     )
 }
@@ -50,6 +53,7 @@ fn entry(study: &Study) -> serde_json::Value {
         .collect();
     json!({
         "id": study.id,
+        "kind": study.kind.word(),
         "title": study.title,
         "claims": study.about,
         "source": study.source,

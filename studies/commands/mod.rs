@@ -4,6 +4,7 @@ pub mod explain;
 pub mod judge;
 pub mod list;
 pub mod plan;
+mod scene_lines;
 
 use std::io::{self, Write};
 

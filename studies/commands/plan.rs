@@ -1,56 +1,119 @@
 //! `pd-verify plan STUDY`: what would be done, and what it would cost; runs nothing and writes nothing.
 
 use super::judge::{read_text, settings};
+use super::scene_lines::scene_lines;
 use crate::input::{Refusal, nearest};
-use crate::question::Profile;
+use crate::question::{Effort, Planned, Profile};
+use crate::scene::effects;
 use crate::shipped::{SHIPPED, refuse_unused};
-use crate::study::Study;
+use crate::study::{Case, Study};
 use serde_json::json;
+use std::fmt::Display;
 use std::path::Path;
+
+/// A case as planned.
+struct Row<'a> {
+    case: &'a Case,
+    runs: bool,
+    effort: Effort,
+    scenes: Vec<Planned>,
+}
 
 /// The plan as text.
 pub fn plan(study: &str, as_json: bool, profile: Profile, set: &[String]) -> Result<String, Refusal> {
     let study = find(study, set)?;
-    let rows: Vec<_> =
-        study.cases.iter().map(|case| (case, case.profile <= profile, case.question.effort())).collect();
-    let total = study.effort(profile);
-    if as_json {
-        let cases: Vec<_> = rows
-            .iter()
-            .map(|(case, runs, effort)| {
-                json!({ "case": case.place.case, "asks": case.asks, "runs": runs, "claims": case.claims().len(), "effort": effort })
-            })
-            .collect();
-        let plan =
-            json!({ "study": study.id, "profile": profile.to_string(), "cases": cases, "total": total });
-        return Ok(serde_json::to_string_pretty(&plan).expect("plain data") + "\n");
+    Ok(planned(&study, as_json, profile))
+}
+
+fn planned(study: &Study, as_json: bool, profile: Profile) -> String {
+    let rows: Vec<Row> = study.cases.iter().map(|case| row_of(case, profile)).collect();
+    let mut total = Effort::default();
+    rows.iter().filter(|row| row.runs).for_each(|row| total += row.effort);
+    if as_json { as_data(study, profile, &rows, total) } else { as_text(study, profile, &rows, total) }
+}
+
+fn as_text(study: &Study, profile: Profile, rows: &[Row], total: Effort) -> String {
+    let mut text = format!("{}: {}\nprofile {profile}; {}\n\n", study.id, study.title, marched(rows));
+    text += &line([
+        "case",
+        "asks",
+        "claims",
+        "curves",
+        "frequencies",
+        "bond visits",
+        "node updates",
+        "reference",
+    ]);
+    text += "\n";
+    for Row { case, runs, effort, .. } in rows {
+        text += &line(cells(&case.place.case, &case.asks, &case.claims().len().to_string(), effort));
+        if !runs {
+            text += &format!("  skipped: from profile {}", case.profile);
+        }
+        text += "\n";
     }
-    let mut text = format!(
-        "{}: {}\nprofile {profile}; nothing is marched in time: waves are evaluated, effects are off\n\n",
-        study.id, study.title
-    );
-    text += &format!(
-        "{:<28} {:<18} {:>7} {:>9} {:>12} {:>15} {:>10}\n",
-        "case", "asks", "claims", "curves", "frequencies", "bond visits", "reference"
-    );
-    for (case, runs, effort) in &rows {
-        let skipped = if *runs { String::new() } else { format!("  skipped: from profile {}", case.profile) };
-        text += &format!(
-            "{:<28} {:<18} {:>7} {:>9} {:>12} {:>15} {:>10}{skipped}\n",
-            case.place.case,
-            case.asks,
-            case.claims().len(),
-            effort.curves,
-            effort.evaluations,
-            effort.bond_evaluations,
-            effort.reference_evaluations
-        );
+    text += &line(cells("total", "", "", &total));
+    text += "\n";
+    for row in rows.iter().filter(|row| !row.scenes.is_empty()) {
+        let skipped = if row.runs { String::new() } else { format!(", from profile {}", row.case.profile) };
+        text += &format!("\n{}: {}{skipped}\n", row.case.place.case, counted(row.scenes.len()));
+        text += &scene_lines(&row.scenes);
     }
-    text += &format!(
-        "{:<28} {:<18} {:>7} {:>9} {:>12} {:>15} {:>10}\n",
-        "total", "", "", total.curves, total.evaluations, total.bond_evaluations, total.reference_evaluations
-    );
-    Ok(text)
+    text
+}
+
+fn row_of(case: &Case, profile: Profile) -> Row<'_> {
+    let scenes = case.question.scenes().into_iter().map(|scene| scene.beside(effects::names())).collect();
+    Row { case, runs: case.profile <= profile, effort: case.question.effort(), scenes }
+}
+
+fn as_data(study: &Study, profile: Profile, rows: &[Row], total: Effort) -> String {
+    let entry = |row: &Row| {
+        json!({
+            "case": row.case.place.case,
+            "asks": row.case.asks,
+            "runs": row.runs,
+            "claims": row.case.claims().len(),
+            "effort": row.effort,
+            "scenes": row.scenes,
+        })
+    };
+    let cases: Vec<_> = rows.iter().map(entry).collect();
+    let plan = json!({ "study": study.id, "profile": profile.to_string(), "cases": cases, "total": total });
+    serde_json::to_string_pretty(&plan).expect("plain data") + "\n"
+}
+
+/// What the cases march in time, in words.
+fn marched(rows: &[Row]) -> String {
+    if rows.iter().all(|row| row.scenes.is_empty()) {
+        return "nothing is marched in time: waves are evaluated, effects are off".to_owned();
+    }
+    let run = rows.iter().filter(|row| row.runs).map(|row| row.scenes.len()).sum();
+    format!("{} to march in time, shown below", counted(run))
+}
+
+fn counted(scenes: usize) -> String {
+    if scenes == 1 { "1 scene".to_owned() } else { format!("{scenes} scenes") }
+}
+
+fn cells(case: &str, asks: &str, claims: &str, effort: &Effort) -> [String; 8] {
+    let counts = [
+        effort.curves,
+        effort.evaluations,
+        effort.bond_evaluations,
+        effort.node_updates,
+        effort.reference_evaluations,
+    ];
+    let [curves, evaluations, bonds, nodes, reference] = counts.map(|count| count.to_string());
+    [case.into(), asks.into(), claims.into(), curves, evaluations, bonds, nodes, reference]
+}
+
+/// A line of the table of cases.
+fn line<T: Display>(cells: [T; 8]) -> String {
+    let [case, asks, claims, curves, frequencies, bonds, nodes, reference] = cells;
+    format!(
+        "{case:<28} {asks:<18} {claims:>7} {curves:>9} {frequencies:>12} {bonds:>15} {nodes:>15} {reference:>10}"
+    )
 }
 
 /// A shipped study by id, or a file.
@@ -70,4 +133,66 @@ fn find(name: &str, set: &[String]) -> Result<Study, Refusal> {
     };
     refuse_unused(&settings, &used)?;
     Ok(study)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::question::{Answer, Place, Question};
+    use crate::subject::Subject;
+    use pd_verify::claim::Claim;
+
+    /// A question that marches one scene.
+    struct Marching;
+
+    impl Question for Marching {
+        fn claims(&self, _: &Place) -> Vec<Claim> {
+            Vec::new()
+        }
+
+        fn scenes(&self) -> Vec<Planned> {
+            vec![Planned {
+                name: "m = 3".into(),
+                effects_on: vec!["bond forces".into()],
+                effects_off: vec!["damage".into()],
+                operator: "half families".into(),
+                nodes: 1000,
+                bonds: 3000,
+                bytes_per_node: 48.0,
+                time_step_s: 1e-7,
+                time_step_over_limit: 0.9,
+                steps: 2000,
+                node_updates: 2_000_000,
+                bond_updates: 6_000_000,
+            }]
+        }
+
+        fn equations(&self) -> &'static str {
+            ""
+        }
+
+        fn answer(&self, _: &dyn Subject, _: &Place) -> Answer {
+            Answer::default()
+        }
+    }
+
+    #[test]
+    fn what_is_marched_is_shown_and_counted() {
+        let (name, text) = SHIPPED[0];
+        let (mut study, _) = Study::read(name, text, &[]).unwrap();
+        study.cases.truncate(2);
+        let nothing = "nothing is marched in time";
+        assert!(planned(&study, false, Profile::Quick).contains(nothing));
+        study.cases[1].question = Box::new(Marching);
+        let text = planned(&study, false, Profile::Quick);
+        assert!(!text.contains(nothing), "{text}");
+        for word in ["1 scene to march", "node updates", " 2000000 ", "effects off: damage", "half families"]
+        {
+            assert!(text.contains(word), "no {word}: {text}");
+        }
+        let data: serde_json::Value = serde_json::from_str(&planned(&study, true, Profile::Quick)).unwrap();
+        assert_eq!(data["cases"][0]["scenes"], json!([]));
+        assert_eq!(data["cases"][1]["scenes"][0]["steps"], 2000);
+        assert_eq!(data["total"]["node_updates"], 2_000_000);
+    }
 }

@@ -2,10 +2,12 @@
 
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::dispersion::{Branch, Wave};
 use pd_verify::kernel::Kernel;
+use pd_verify::scene::Wrong;
 use pd_verify_reference as reference;
 use pd_verify_reference::oracles;
 use schemars::JsonSchema;
@@ -18,6 +20,14 @@ pub struct ContinuumOraclesAsked {}
 
 /// The case.
 pub struct ContinuumOracles;
+
+impl Asked for ContinuumOraclesAsked {
+    type Question = ContinuumOracles;
+
+    fn check(&self, _: &Written<'_>) -> Result<ContinuumOracles, Wrong> {
+        Ok(ContinuumOracles)
+    }
+}
 
 const FAMILIES: [(&str, u8, &str); 3] = [("bar", 1, "P"), ("plane_p", 2, "P"), ("plane_s", 2, "S")];
 
@@ -53,7 +63,7 @@ impl Question for ContinuumOracles {
     }
 
     fn effort(&self) -> Effort {
-        Effort { curves: 33, evaluations: 614, bond_evaluations: 614 * 2000, reference_evaluations: 0 }
+        Effort { curves: 33, evaluations: 614, bond_evaluations: 614 * 2000, ..Effort::default() }
     }
 
     fn equations(&self) -> &'static str {

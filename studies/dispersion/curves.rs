@@ -10,10 +10,10 @@ use super::wavenumbers::Wavenumbers;
 use super::words::BodyName;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::dispersion::continuum::panels;
-use pd_verify::material::Material;
 use pd_verify::scene::Wrong;
 use pd_verify::verdict::Evidence;
 use rayon::prelude::*;
@@ -42,13 +42,15 @@ pub struct Curves {
 /// Rows that a case may write.
 const MAX_ROWS: u64 = 1_000_000;
 
-impl CurvesAsked {
+impl Asked for CurvesAsked {
+    type Question = Curves;
+
     /// Every combination as a curve, or what is wrong.
-    pub fn check(&self, title: &str, material: Option<Material>) -> Result<Curves, Wrong> {
+    fn check(&self, written: &Written<'_>) -> Result<Curves, Wrong> {
         self.wavenumbers.check().map_err(|wrong| wrong.inside("wavenumbers"))?;
         let mut curves = Vec::new();
         for (index, sweep) in self.curve.iter().enumerate() {
-            let found = sweep.curves(self.body.into(), material);
+            let found = sweep.curves(self.body.into(), written.material);
             curves.extend(found.map_err(|wrong| wrong.inside(&format!("curve[{index}]")))?);
         }
         let rows = (curves.len() as u64).saturating_mul(self.wavenumbers.count());
@@ -67,7 +69,7 @@ impl CurvesAsked {
             self.wavenumbers.check_for(curve).map_err(|wrong| wrong.inside("wavenumbers"))?;
         }
         let labels = labels(&curves);
-        Ok(Curves { title: title.to_owned(), curves, labels, wavenumbers: self.wavenumbers.clone() })
+        Ok(Curves { title: written.title.to_owned(), curves, labels, wavenumbers: self.wavenumbers.clone() })
     }
 }
 

@@ -7,6 +7,7 @@ use super::sweep::{LatticeSweep, check_sizes, distinct, unusable};
 use crate::input::Positive;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::dispersion::{Branch, Wave};
@@ -36,8 +37,10 @@ pub struct HeatMap {
     lattices: Vec<Lattice>,
 }
 
-impl HeatMapAsked {
-    pub fn check(&self, title: &str) -> Result<HeatMap, Wrong> {
+impl Asked for HeatMapAsked {
+    type Question = HeatMap;
+
+    fn check(&self, written: &Written<'_>) -> Result<HeatMap, Wrong> {
         if self.nodes_per_wavelength.0 <= 2.0 {
             let message =
                 format!("{} nodes per wavelength are no wave on a grid", self.nodes_per_wavelength.0);
@@ -51,7 +54,11 @@ impl HeatMapAsked {
         {
             return Err(Wrong::new("lattice.m", reason.to_string(), reason.cure()));
         }
-        Ok(HeatMap { title: title.to_owned(), nodes_per_wavelength: self.nodes_per_wavelength.0, lattices })
+        Ok(HeatMap {
+            title: written.title.to_owned(),
+            nodes_per_wavelength: self.nodes_per_wavelength.0,
+            lattices,
+        })
     }
 }
 
@@ -76,6 +83,7 @@ impl Question for HeatMap {
             evaluations: count * waves,
             bond_evaluations: bonds as u64 * waves,
             reference_evaluations: count * waves,
+            ..Effort::default()
         }
     }
 

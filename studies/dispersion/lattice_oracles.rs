@@ -3,11 +3,13 @@
 use super::continuum_oracles::kernel;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::dispersion::bar::BarDispersion;
 use pd_verify::lattice::{Lattice, Stencil};
 use pd_verify::partial_volume::VolumeRule;
+use pd_verify::scene::Wrong;
 use pd_verify::verdict::Evidence;
 use pd_verify_reference as reference;
 use pd_verify_reference::oracles::{self, PublishedOracle};
@@ -21,6 +23,14 @@ pub struct LatticeOraclesAsked {}
 
 /// The case.
 pub struct LatticeOracles;
+
+impl Asked for LatticeOraclesAsked {
+    type Question = LatticeOracles;
+
+    fn check(&self, _: &Written<'_>) -> Result<LatticeOracles, Wrong> {
+        Ok(LatticeOracles)
+    }
+}
 
 /// What each group of printed numbers is compared with, and in which words.
 const GROUPS: [(&str, &[&str], &str); 6] = [
@@ -67,7 +77,7 @@ impl Question for LatticeOracles {
     }
 
     fn effort(&self) -> Effort {
-        Effort { curves: 75, evaluations: 75, bond_evaluations: 75 * 100, reference_evaluations: 0 }
+        Effort { curves: 75, evaluations: 75, bond_evaluations: 75 * 100, ..Effort::default() }
     }
 
     fn equations(&self) -> &'static str {

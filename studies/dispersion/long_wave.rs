@@ -3,12 +3,14 @@
 use super::curve::{Curve, Medium};
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, value_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::dispersion::Branch;
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::partial_volume::VolumeRule;
+use pd_verify::scene::Wrong;
 use pd_verify_reference::oracles;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -20,6 +22,14 @@ pub struct LongWaveAsked {}
 
 /// The case.
 pub struct LongWave;
+
+impl Asked for LongWaveAsked {
+    type Question = LongWave;
+
+    fn check(&self, _: &Written<'_>) -> Result<LongWave, Wrong> {
+        Ok(LongWave)
+    }
+}
 
 /// A coefficient a of the phase error a x², x = kδ or kΔx.
 struct Coefficient {
@@ -113,7 +123,7 @@ impl Question for LongWave {
     }
 
     fn effort(&self) -> Effort {
-        Effort { curves: 7, evaluations: 21, bond_evaluations: 21 * 42, reference_evaluations: 0 }
+        Effort { curves: 7, evaluations: 21, bond_evaluations: 21 * 42, ..Effort::default() }
     }
 
     fn equations(&self) -> &'static str {

@@ -6,6 +6,7 @@ use super::words::{KernelName, VolumeRuleName};
 use crate::input::{OneOrMany, Positive};
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim};
 use pd_verify::compare::order;
 use pd_verify::dispersion::bar::BarDispersion;
@@ -48,8 +49,10 @@ struct Sequence {
     expected: f64,
 }
 
-impl MConvergenceAsked {
-    pub fn check(&self, title: &str) -> Result<MConvergence, Wrong> {
+impl Asked for MConvergenceAsked {
+    type Question = MConvergence;
+
+    fn check(&self, written: &Written<'_>) -> Result<MConvergence, Wrong> {
         let m: Vec<f64> = self.m.iter().map(|m| m.0).collect();
         if m.len() < 3 || m.windows(2).any(|pair| pair[0] >= pair[1]) || m[0] < 1.0 {
             return Err(Wrong::new(
@@ -77,7 +80,7 @@ impl MConvergenceAsked {
         }
         let largest = |sequence: &Sequence| sequence.lattice(m[m.len() - 1]);
         check_sizes(Body::Bar, &sequences.iter().map(largest).collect::<Vec<_>>())?;
-        Ok(MConvergence { title: title.to_owned(), sequences, m, k_horizon: self.k_horizon.0 })
+        Ok(MConvergence { title: written.title.to_owned(), sequences, m, k_horizon: self.k_horizon.0 })
     }
 }
 
@@ -148,6 +151,7 @@ impl Question for MConvergence {
             evaluations,
             bond_evaluations: count * bonds as u64,
             reference_evaluations: count,
+            ..Effort::default()
         }
     }
 

@@ -6,6 +6,7 @@ use super::words::KernelName;
 use crate::input::{OneOrMany, Positive};
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest_relative;
 use pd_verify::kernel::Kernel;
@@ -32,9 +33,11 @@ pub struct Micromodulus {
     kernels: Vec<Kernel>,
 }
 
-impl MicromodulusAsked {
-    pub fn check(&self, title: &str) -> Result<Micromodulus, Wrong> {
-        Ok(Micromodulus { title: title.to_owned(), kernels: kernels(&self.kernel, self.p.as_ref())? })
+impl Asked for MicromodulusAsked {
+    type Question = Micromodulus;
+
+    fn check(&self, written: &Written<'_>) -> Result<Micromodulus, Wrong> {
+        Ok(Micromodulus { title: written.title.to_owned(), kernels: kernels(&self.kernel, self.p.as_ref())? })
     }
 }
 
@@ -63,6 +66,7 @@ impl Question for Micromodulus {
             evaluations: 3 * count,
             bond_evaluations: 3 * count,
             reference_evaluations: 3 * count,
+            ..Effort::default()
         }
     }
 

@@ -3,6 +3,7 @@
 use super::curve::{reference_kernel, reference_lattice};
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::dispersion::Branch;
 use pd_verify::dispersion::bar::BarDispersion;
@@ -12,6 +13,7 @@ use pd_verify::kernel::Kernel;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::partial_volume::VolumeRule;
+use pd_verify::scene::Wrong;
 use pd_verify::verdict::Evidence;
 use pd_verify_reference as reference;
 use pd_verify_reference::scattering::{self, Half};
@@ -26,6 +28,14 @@ pub struct MisprintsAsked {}
 
 /// The case.
 pub struct Misprints;
+
+impl Asked for MisprintsAsked {
+    type Question = Misprints;
+
+    fn check(&self, _: &Written<'_>) -> Result<Misprints, Wrong> {
+        Ok(Misprints)
+    }
+}
 
 /// One formula: the same bound asked of what is printed and of what is right.
 struct Pair {
@@ -161,7 +171,13 @@ impl Question for Misprints {
     }
 
     fn effort(&self) -> Effort {
-        Effort { curves: 16, evaluations: 2100, bond_evaluations: 2100 * 400, reference_evaluations: 8 }
+        Effort {
+            curves: 16,
+            evaluations: 2100,
+            bond_evaluations: 2100 * 400,
+            reference_evaluations: 8,
+            ..Effort::default()
+        }
     }
 
     fn equations(&self) -> &'static str {

@@ -7,6 +7,7 @@ use super::words::BodyName;
 use crate::input::OneOrMany;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::kernel::Kernel;
@@ -34,8 +35,10 @@ pub struct Moduli {
     asked: Vec<(Body, Lattice)>,
 }
 
-impl ModuliAsked {
-    pub fn check(&self, title: &str) -> Result<Moduli, Wrong> {
+impl Asked for ModuliAsked {
+    type Question = Moduli;
+
+    fn check(&self, written: &Written<'_>) -> Result<Moduli, Wrong> {
         let lattices = self.lattice.lattices().map_err(|wrong| wrong.inside("lattice"))?;
         let mut asked = Vec::new();
         for &body in &self.body.0 {
@@ -49,7 +52,7 @@ impl ModuliAsked {
             let reason = unusable(body, lattice).expect("every lattice is unusable");
             return Err(Wrong::new("lattice.m", reason.to_string(), reason.cure()));
         }
-        Ok(Moduli { title: title.to_owned(), asked })
+        Ok(Moduli { title: written.title.to_owned(), asked })
     }
 }
 
@@ -126,6 +129,7 @@ impl Question for Moduli {
             evaluations: count,
             bond_evaluations: visited as u64,
             reference_evaluations: 2 * count,
+            ..Effort::default()
         }
     }
 

@@ -6,6 +6,7 @@ use super::sweep::LatticeSweep;
 use crate::input::Positive;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::dispersion::Branch;
@@ -36,8 +37,10 @@ pub struct Polar {
     media: Vec<Medium>,
 }
 
-impl PolarAsked {
-    pub fn check(&self, title: &str) -> Result<Polar, Wrong> {
+impl Asked for PolarAsked {
+    type Question = Polar;
+
+    fn check(&self, written: &Written<'_>) -> Result<Polar, Wrong> {
         if self.nodes_per_wavelength.0 <= 2.0 {
             let message =
                 format!("{} nodes per wavelength are no wave on a grid", self.nodes_per_wavelength.0);
@@ -49,7 +52,11 @@ impl PolarAsked {
         if self.finite_differences == Some(true) {
             media.push(Medium::FiniteDifferences { dx: 1.0 });
         }
-        Ok(Polar { title: title.to_owned(), nodes_per_wavelength: self.nodes_per_wavelength.0, media })
+        Ok(Polar {
+            title: written.title.to_owned(),
+            nodes_per_wavelength: self.nodes_per_wavelength.0,
+            media,
+        })
     }
 }
 
@@ -72,7 +79,13 @@ impl Question for Polar {
     fn effort(&self) -> Effort {
         let curves = 2 * self.media.len() as u64;
         let evaluations = curves * u64::from(360 / STEP + 1);
-        Effort { curves, evaluations, bond_evaluations: evaluations * 40, reference_evaluations: curves * 24 }
+        Effort {
+            curves,
+            evaluations,
+            bond_evaluations: evaluations * 40,
+            reference_evaluations: curves * 24,
+            ..Effort::default()
+        }
     }
 
     fn equations(&self) -> &'static str {

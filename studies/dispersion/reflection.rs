@@ -7,6 +7,7 @@ use super::lattice_table::{lattice_row, lattice_table};
 use super::sweep::LatticeSweep;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::dispersion::joint::Chain;
@@ -33,15 +34,17 @@ pub struct Reflection {
     lattices: Vec<Lattice>,
 }
 
-impl ReflectionAsked {
-    pub fn check(&self, title: &str) -> Result<Reflection, Wrong> {
+impl Asked for ReflectionAsked {
+    type Question = Reflection;
+
+    fn check(&self, written: &Written<'_>) -> Result<Reflection, Wrong> {
         let lattices = self.right.usable(Body::Bar).map_err(|wrong| wrong.inside("right"))?;
         let most = 40.0;
         if let Some(lattice) = lattices.iter().find(|lattice| lattice.m > most) {
             let message = format!("m = {} makes a scattering problem of too high a degree", lattice.m);
             return Err(Wrong::new("right.m", message, format!("take m up to {most}")));
         }
-        Ok(Reflection { title: title.to_owned(), lattices })
+        Ok(Reflection { title: written.title.to_owned(), lattices })
     }
 }
 
@@ -75,6 +78,7 @@ impl Question for Reflection {
             evaluations,
             bond_evaluations: evaluations * 400,
             reference_evaluations: 7 * count,
+            ..Effort::default()
         }
     }
 

@@ -2,12 +2,14 @@
 
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::dispersion::joint::{Chain, cut_off};
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::Lattice;
 use pd_verify::partial_volume::VolumeRule;
+use pd_verify::scene::Wrong;
 use pd_verify_reference::oracles;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,6 +21,14 @@ pub struct ReflectionOraclesAsked {}
 
 /// The case.
 pub struct ReflectionOracles;
+
+impl Asked for ReflectionOraclesAsked {
+    type Question = ReflectionOracles;
+
+    fn check(&self, _: &Written<'_>) -> Result<ReflectionOracles, Wrong> {
+        Ok(ReflectionOracles)
+    }
+}
 
 /// The joint whose reflections are printed: finite differences on the left, this on the right.
 const RIGHT: Lattice =
@@ -53,7 +63,7 @@ impl Question for ReflectionOracles {
     }
 
     fn effort(&self) -> Effort {
-        Effort { curves: 3, evaluations: 11, bond_evaluations: 11 * 400, reference_evaluations: 0 }
+        Effort { curves: 3, evaluations: 11, bond_evaluations: 11 * 400, ..Effort::default() }
     }
 
     fn equations(&self) -> &'static str {

@@ -2,6 +2,7 @@
 
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest_relative;
 use pd_verify::dispersion::bar::BarDispersion;
@@ -10,6 +11,7 @@ use pd_verify::kernel::Kernel;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::partial_volume::VolumeRule;
+use pd_verify::scene::Wrong;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -20,6 +22,14 @@ pub struct SmallPAsked {}
 
 /// The case.
 pub struct SmallP;
+
+impl Asked for SmallPAsked {
+    type Question = SmallP;
+
+    fn check(&self, _: &Written<'_>) -> Result<SmallP, Wrong> {
+        Ok(SmallP)
+    }
+}
 
 /// The relative change from the constant kernel is of the order of `distance`: p² Gaussian, p exponential.
 const LIMITS: [(&str, Kernel); 2] =
@@ -45,7 +55,7 @@ impl Question for SmallP {
     }
 
     fn effort(&self) -> Effort {
-        Effort { curves: 4, evaluations: 66, bond_evaluations: 66 * 42, reference_evaluations: 0 }
+        Effort { curves: 4, evaluations: 66, bond_evaluations: 66 * 42, ..Effort::default() }
     }
 
     fn equations(&self) -> &'static str {

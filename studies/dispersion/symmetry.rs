@@ -4,6 +4,7 @@ use super::sweep::LatticeSweep;
 use super::words::BodyName;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::dispersion::bar::BarDispersion;
@@ -29,8 +30,10 @@ pub struct Symmetry {
     lattices: Vec<Lattice>,
 }
 
-impl SymmetryAsked {
-    pub fn check(&self) -> Result<Symmetry, Wrong> {
+impl Asked for SymmetryAsked {
+    type Question = Symmetry;
+
+    fn check(&self, _: &Written<'_>) -> Result<Symmetry, Wrong> {
         let body = self.body.into();
         let lattices = self.lattice.usable(body).map_err(|wrong| wrong.inside("lattice"))?;
         Ok(Symmetry { body, lattices })
@@ -66,7 +69,7 @@ impl Question for Symmetry {
         let points = if self.body == Body::Bar { GRID } else { GRID * GRID * 10 } as u64;
         let count = self.lattices.len() as u64;
         let evaluations = 3 * points * count;
-        Effort { curves: count, evaluations, bond_evaluations: evaluations * 40, reference_evaluations: 0 }
+        Effort { curves: count, evaluations, bond_evaluations: evaluations * 40, ..Effort::default() }
     }
 
     fn equations(&self) -> &'static str {

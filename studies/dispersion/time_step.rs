@@ -7,6 +7,7 @@ use super::words::BodyName;
 use crate::input::OneOrMany;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
 use crate::subject::Subject;
+use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest_relative;
 use pd_verify::dispersion::timestep::TimeStep as Limits;
@@ -37,8 +38,10 @@ pub struct TimeStep {
 /// In the plane the searches cost m⁴; at this m a lattice takes the reference about a second.
 const LARGEST_M: f64 = 20.0;
 
-impl TimeStepAsked {
-    pub fn check(&self, title: &str) -> Result<TimeStep, Wrong> {
+impl Asked for TimeStepAsked {
+    type Question = TimeStep;
+
+    fn check(&self, written: &Written<'_>) -> Result<TimeStep, Wrong> {
         let mut asked = Vec::new();
         for &name in &self.body.0 {
             let body = name.into();
@@ -50,7 +53,7 @@ impl TimeStepAsked {
             }
             asked.extend(usable.into_iter().map(|lattice| (body, lattice)));
         }
-        Ok(TimeStep { title: title.to_owned(), asked })
+        Ok(TimeStep { title: written.title.to_owned(), asked })
     }
 }
 
@@ -91,6 +94,7 @@ impl Question for TimeStep {
             evaluations: count,
             bond_evaluations: visited as u64,
             reference_evaluations: count,
+            ..Effort::default()
         }
     }
 

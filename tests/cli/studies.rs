@@ -5,10 +5,14 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+/// Commands with shipped studies, and the folders of these.
+const KINDS: [&str; 2] = ["dispersion", "bar"];
+
 /// Name and text of every shipped study file.
 pub fn shipped() -> Vec<(String, String)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/dispersion");
-    let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let folder = |kind: &&str| Path::new(env!("CARGO_MANIFEST_DIR")).join("studies").join(kind);
+    let entries = KINDS.iter().flat_map(|kind| fs::read_dir(folder(kind)).unwrap());
+    let paths = entries.map(|entry| entry.unwrap().path());
     let files = paths.filter(|path| path.extension().is_some_and(|ending| ending == "toml"));
     files.map(|path| (path.display().to_string(), fs::read_to_string(&path).unwrap())).collect()
 }
@@ -26,32 +30,37 @@ fn shipped_files_are_accepted_as_files() {
 
 #[test]
 fn the_quick_profile_passes_and_threads_change_no_bit() {
+    for (kind, claims, files) in [("dispersion", 100, 60), ("bar", 20, 10)] {
+        quick_profile(kind, claims, files);
+    }
+}
+
+/// Runs a command in its quick profile on one thread and on two; it has more claims and files than these.
+fn quick_profile(kind: &str, claims: usize, files: usize) {
     let place = Place::new();
     for threads in ["1", "2"] {
         let out = format!("out-{threads}");
-        place
-            .run(&["dispersion", "--profile", "quick", "--strict", "--threads", threads, "--out", &out])
-            .code(0);
+        place.run(&[kind, "--profile", "quick", "--strict", "--threads", threads, "--out", &out]).code(0);
     }
     let verdicts = rows(&place.read("out-1/verdicts.csv"));
     let ids: BTreeSet<_> = verdicts.iter().map(|row| row["claim"].clone()).collect();
     assert_eq!(ids.len(), verdicts.len(), "a claim's id is unique");
-    assert!(ids.len() > 100);
+    assert!(ids.len() > claims);
     assert_eq!(
         without_seconds(&place.read("out-1/verdicts.csv")),
         without_seconds(&place.read("out-2/verdicts.csv"))
     );
     let mut compared = 0;
-    for entry in fs::read_dir(place.path("out-1/dispersion")).unwrap().map(Result::unwrap) {
+    for entry in fs::read_dir(place.path(&format!("out-1/{kind}"))).unwrap().map(Result::unwrap) {
         let name = entry.file_name().into_string().unwrap();
         if name != "manifest.json" && name != "verdicts.csv" {
-            let [one, two] = ["1", "2"].map(|n| place.read(&format!("out-{n}/dispersion/{name}")));
+            let [one, two] = ["1", "2"].map(|n| place.read(&format!("out-{n}/{kind}/{name}")));
             assert!(one == two, "{name} depends on the number of threads");
             compared += 1;
         }
     }
-    assert!(compared > 60);
-    figures_have_their_data(&place, "out-1/dispersion");
+    assert!(compared > files);
+    figures_have_their_data(&place, &format!("out-1/{kind}"));
 }
 
 /// The last column holds seconds and nothing else does.

@@ -7,7 +7,7 @@ use super::clip::Rect;
 use super::frame::{self, words};
 use super::style::{BLACK, GREY, INK, Rgb, WHITE};
 use super::text;
-use super::ticks::fitting;
+use super::ticks::{Ticks, fitting};
 
 /// Viridis: lighter is larger for every eye and on a grey printer.
 const SEQUENTIAL: [Rgb; 9] = [
@@ -60,7 +60,10 @@ impl Colours {
     }
 }
 
+/// Between cells and bar, across the bar, and between the bar and its label beside the tick labels.
+const GAP: f64 = 16.0;
 const BAR: f64 = 16.0;
+const BESIDE: f64 = 14.0;
 
 /// The colours of an axis over the range that is shown.
 #[derive(Debug)]
@@ -72,9 +75,6 @@ pub(super) struct ColourScale<'a> {
 }
 
 impl<'a> ColourScale<'a> {
-    /// Width needed right of the cells: a gap, the bar, its tick labels and its label.
-    pub const ROOM: f64 = 16.0 + BAR + 9.0 + 52.0 + frame::LINE;
-
     /// A scale for these values; about its centre it is symmetric.
     pub fn new(axis: &'a Axis, colours: Colours, values: &[Vec<Option<f64>>]) -> Result<Self, PlotError> {
         let (mut lo, mut hi) = axis.span(values.iter().flatten().flatten().copied(), 0.0)?;
@@ -103,9 +103,24 @@ impl<'a> ColourScale<'a> {
         self.colours.at(share)
     }
 
+    fn ticks(&self, height: f64) -> Ticks {
+        fitting(self.share.scale, self.share.lo, self.share.hi, height, false, frame::SIZE)
+    }
+
+    fn label(&self, ticks: &Ticks, height: f64) -> Vec<String> {
+        text::wrap(&frame::full_label(self.axis, ticks), frame::SIZE, false, height + 40.0)
+    }
+
+    /// Width needed right of cells of this height: a gap, the bar, its tick labels and its label.
+    pub fn room(&self, height: f64) -> f64 {
+        let ticks = self.ticks(height);
+        let lines = self.label(&ticks, height).len() as f64;
+        (GAP + BAR + BESIDE + ticks.widest(frame::SIZE) + lines * frame::LINE).max(112.0)
+    }
+
     /// Draws the scale right of the cells.
     pub fn draw(&self, canvas: &mut Canvas, area: Rect) {
-        let strip = Rect { left: area.right + 16.0, right: area.right + 16.0 + BAR, ..area };
+        let strip = Rect { left: area.right + GAP, right: area.right + GAP + BAR, ..area };
         let steps = 64;
         let high = strip.height() / f64::from(steps);
         for i in 0..steps {
@@ -115,24 +130,15 @@ impl<'a> ColourScale<'a> {
             canvas.rect(piece, self.colours.at((f64::from(i) + 0.5) / f64::from(steps)), 1.0);
         }
         canvas.outline(strip, Stroke::solid(GREY, 1.0));
-        let ticks = fitting(
-            self.share.scale,
-            self.share.lo,
-            self.share.hi,
-            strip.height(),
-            false,
-            frame::SIZE,
-        );
+        let ticks = self.ticks(strip.height());
         let up = Span { start: strip.bottom, end: strip.top, ..self.share };
         for (value, label) in ticks.labelled() {
             let y = up.at(value);
             canvas.line((strip.right, y), (strip.right + 5.0, y), Stroke::solid(INK, 1.0));
             canvas.text(words((strip.right + 8.0, y), label, Align::Left));
         }
-        let mut x = strip.right + 14.0 + ticks.widest(frame::SIZE) + 0.5 * frame::LINE;
-        for line in
-            text::wrap(&frame::full_label(self.axis, &ticks), frame::SIZE, false, strip.height() + 40.0)
-        {
+        let mut x = strip.right + BESIDE + ticks.widest(frame::SIZE) + 0.5 * frame::LINE;
+        for line in self.label(&ticks, strip.height()) {
             let at = (x, 0.5 * (strip.top + strip.bottom));
             canvas.text(Text { upwards: true, ..words(at, line, Align::Centre) });
             x += frame::LINE;

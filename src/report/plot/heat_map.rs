@@ -12,6 +12,9 @@ use super::style::{INK, Rgb, WHITE};
 use super::text;
 
 const HATCH: Rgb = (190, 190, 190);
+/// Least and greatest height of a row.
+const LOW: f64 = 34.0;
+const HIGH: f64 = 44.0;
 
 /// Values over two lists of names; the first row stands at the top.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -81,8 +84,10 @@ impl HeatMap {
         let title = frame::paragraph(canvas, &self.title, left + 0.5 * width, top, width, true);
         let name_room = text::widest(self.y.iter().map(String::as_str), frame::SIZE).min(0.36 * width);
         let grid_left = left + name_room + 10.0 + if self.y_label.is_empty() { 0.0 } else { frame::LINE };
-        let cell = ((left + width - ColourScale::ROOM - grid_left) / self.x.len() as f64).clamp(6.0, 110.0);
-        let row = (0.5 * cell).clamp(34.0, 44.0);
+        // The scale is as high as the rows, which are as high as the cells leave them.
+        let scale_room = scale.room(LOW * self.y.len() as f64).max(scale.room(HIGH * self.y.len() as f64));
+        let cell = ((left + width - scale_room - grid_left) / self.x.len() as f64).clamp(6.0, 110.0);
+        let row = (0.5 * cell).clamp(LOW, HIGH);
         let area = Rect {
             left: grid_left,
             top: top + title + 8.0,

@@ -10,8 +10,8 @@ use super::left_out::LeftOut;
 use super::style::{INK, Rgb};
 use std::collections::BTreeMap;
 
-/// Colours that are told apart; cells of one colour are drawn together.
-const SHADES: usize = 64;
+/// Steps between the ends of the scale; cells of one shade are drawn together. Even, so that a centre is a shade.
+const STEPS: f64 = 64.0;
 /// In neither scale of colours.
 const MISSING: Rgb = (176, 176, 176);
 
@@ -74,9 +74,7 @@ impl Raster {
             return Err(PlotError::Empty);
         }
         match self.values.iter().find(|row| row.len() != expected) {
-            Some(row) => {
-                Err(PlotError::Shape { what: "raster, columns".into(), found: row.len(), expected })
-            }
+            Some(row) => Err(PlotError::Shape { what: "raster, columns".into(), found: row.len(), expected }),
             None => Ok(()),
         }
     }
@@ -100,7 +98,7 @@ impl Raster {
         let height = (0.56 * width).clamp(210.0, 400.0);
         let y_ticks = frame::upright_ticks(&self.y, y_range, height);
         let room = frame::upright_room(&self.y, &y_ticks, height);
-        let (first, right) = (left + room, left + width - ColourScale::ROOM);
+        let (first, right) = (left + room, left + width - scale.room(height));
         let x_ticks = frame::level_ticks(&self.x, x_range, right - first);
         let title = frame::paragraph(canvas, &self.title, 0.5 * (first + right), top, width - room, true);
         let above = top + title + 8.0;
@@ -123,7 +121,7 @@ impl Raster {
                 left_out.miss(value);
                 left_out.grey_cells += 1;
             }
-            share.map(|share| ((share.clamp(0.0, 1.0) * SHADES as f64) as usize).min(SHADES - 1))
+            share.map(|share| (share.clamp(0.0, 1.0) * STEPS).round() as usize)
         };
         let shades: Vec<Vec<Option<usize>>> =
             self.values.iter().map(|row| row.iter().map(|&value| shade(value)).collect()).collect();
@@ -135,8 +133,8 @@ impl Raster {
                 top: area.bottom - block.above as f64 / rows * area.height(),
                 bottom: area.bottom - block.below as f64 / rows * area.height(),
             };
-            let middle = |shade: usize| scale.colour((shade as f64 + 0.5) / SHADES as f64);
-            canvas.cells(blocks.iter().map(place).collect(), shade.map_or(MISSING, middle));
+            let colour = |shade: usize| scale.colour(shade as f64 / STEPS);
+            canvas.cells(blocks.iter().map(place).collect(), shade.map_or(MISSING, colour));
         }
         left_out
     }
@@ -215,10 +213,14 @@ mod tests {
     #[test]
     fn points_are_the_middles_of_the_cells() {
         let (x, y) = (Axis::linear("x (m)").range(0.0, 1.0), Axis::log("t (s)").range(1.0, 1e4));
-        let raster = Raster::new(x, y, Axis::linear("u (m)"), vec![vec![Some(1.0), None], vec![Some(2.0); 2]]);
+        let raster =
+            Raster::new(x, y, Axis::linear("u (m)"), vec![vec![Some(1.0), None], vec![Some(2.0); 2]]);
         let points = raster.points();
         assert_eq!(points.iter().map(|point| point.0).collect::<Vec<_>>(), [0.25, 0.75, 0.25, 0.75]);
         assert!((points[0].1 - 10.0).abs() < 1e-12 && (points[3].1 - 1e3).abs() < 1e-9);
-        assert_eq!(points.iter().map(|point| point.2).collect::<Vec<_>>(), [Some(1.0), None, Some(2.0), Some(2.0)]);
+        assert_eq!(
+            points.iter().map(|point| point.2).collect::<Vec<_>>(),
+            [Some(1.0), None, Some(2.0), Some(2.0)]
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! Figures like those of the studies, and the awkward ones.
 
-use crate::report::plot::{Axis, Category, Dot, Dots, Figure, Guide, HeatMap, Lines, Polar, Series};
+use crate::report::plot::{Axis, Category, Dot, Dots, Figure, Guide, HeatMap, Lines, Polar, Raster, Series};
 use std::f64::consts::PI;
 
 fn sampled(lo: f64, hi: f64, f: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
@@ -99,6 +99,42 @@ pub fn errors() -> Figure {
     Figure::new("errors", "Error by volume rule", "Smaller is better.", map)
 }
 
+/// Strain of a released bar over place and time, with ripples behind the fronts and a part that was not computed.
+pub fn space_time() -> Figure {
+    let (columns, rows) = (200, 150);
+    let ramp = |s: f64| {
+        let folded = (s + 1.0).rem_euclid(4.0) - 1.0;
+        let from = if folded <= 2.0 { folded - 1.0 } else { 3.0 - folded };
+        (-from / 0.02).tanh() + 0.2 * (-(from.abs() / 0.15)).exp() * (from / 0.015).sin()
+    };
+    let value = |i: usize, j: usize| {
+        let (x, t) = ((i as f64 + 0.5) / columns as f64, 0.8 * (j as f64 + 0.5) / rows as f64);
+        let missing = t > 0.7 && (0.3..0.45).contains(&x);
+        (!missing).then_some(0.5e-3 * (ramp(x - 5.05 * t) + ramp(x + 5.05 * t)))
+    };
+    let values = (0..rows).map(|j| (0..columns).map(|i| value(i, j)).collect()).collect();
+    let (x, t) = (Axis::linear("place x (m)").range(0.0, 1.0), Axis::linear("time t (ms)").range(0.0, 0.8));
+    let field = Raster::new(x, t, Axis::linear("strain ε (1)"), values).diverging(0.0);
+    Figure::new("space-time", "Strain of the released bar", "Fronts run between the ends.", field)
+}
+
+/// Two small rasters, one by decades, one with logarithmic values and a zero.
+pub fn fields() -> Figure {
+    let field = |f: &dyn Fn(i32, i32) -> f64| -> Vec<Vec<Option<f64>>> {
+        (0..20).map(|j| (0..30).map(|i| Some(f(i, j))).collect()).collect()
+    };
+    let smooth = field(&|i, j| libm::sin(0.2 * f64::from(i)) * f64::from(j));
+    let errors =
+        field(&|i, j| if i == j { 0.0 } else { 10f64.powf(-0.2 * f64::from(i) - 0.1 * f64::from(j)) });
+    let x = || Axis::linear("place x (mm)").range(-50.0, 50.0);
+    let first = Raster::new(x(), Axis::linear("time step"), Axis::linear("velocity (m/s)"), smooth);
+    let decades = Axis::log("frequency (kHz)").range(1.0, 1e3);
+    let second = Raster::new(x(), decades, Axis::log("relative error (1)"), errors);
+    Figure::new("fields", "Two fields", "Side by side.", first.titled("linear"))
+        .panel(second.titled("logarithmic"))
+        .columns(2)
+}
+
 /// Lattice moduli beside the intended one.
 pub fn moduli() -> Figure {
     let groups = ["m = 2", "m = 3", "m = 4", "m = 6"].map(str::to_owned).to_vec();
@@ -189,6 +225,8 @@ pub fn all() -> Vec<Figure> {
         anisotropy(),
         orders(),
         errors(),
+        space_time(),
+        fields(),
         moduli(),
         multiples(),
         awkward(),

@@ -189,12 +189,58 @@ fn cells_without_a_value_are_hatched_and_the_rest_is_printed() {
 }
 
 #[test]
+fn the_cells_of_a_raster_fill_its_frame_once() {
+    for figure in [gallery::space_time(), gallery::fields()] {
+        let drawing = read(&svg(&figure).unwrap());
+        let frame = drawing.frame();
+        let inside: Vec<_> = drawing.cells.iter().filter(|(_, cell)| cell.left < frame.right).collect();
+        let area: f64 = inside.iter().map(|(_, cell)| cell.width() * cell.height()).sum();
+        assert!((area - frame.width() * frame.height()).abs() < 1.0, "{}: {area}", figure.id);
+        for (_, cell) in inside {
+            assert!(frame.holds((cell.left, cell.top)) && frame.holds((cell.right, cell.bottom)));
+        }
+    }
+}
+
+#[test]
+fn a_raster_shows_low_y_below_and_missing_cells_grey() {
+    let values = vec![vec![Some(0.0), Some(1.0)], vec![Some(f64::NAN), None]];
+    let field =
+        |values| Raster::new(Axis::linear("x (m)"), Axis::linear("t (s)"), Axis::linear("u (m)"), values);
+    let drawing = drawn(field(values));
+    let frame = drawing.frame();
+    let (wide, high) = (0.5 * frame.width(), 0.5 * frame.height());
+    let cell = |x: f64, y: f64| {
+        let at = (frame.left + x * wide, frame.bottom - y * high);
+        drawing.cells.iter().find(|(_, cell)| cell.holds(at)).unwrap().0.clone()
+    };
+    assert_eq!([cell(0.5, 1.5), cell(1.5, 1.5)], ["#B0B0B0"; 2]);
+    assert_eq!([cell(0.5, 0.5), cell(1.5, 0.5)], ["#440154", "#FDE725"], "the ends of the scale");
+    assert!(drawing.says("Grey: no value.") && drawing.says("1 point missing or not finite"));
+    let note = |value: f64| drawn(field(vec![vec![Some(value); 3]])).says("no value");
+    assert_eq!([note(2.0), note(f64::INFINITY)], [false, true]);
+}
+
+#[test]
+fn a_space_time_plot_is_a_small_file() {
+    let text = svg(&gallery::space_time()).unwrap();
+    assert!(text.len() < 150_000, "{} bytes for 200 × 150 cells", text.len());
+    assert!(text.contains("crispEdges"));
+}
+
+#[test]
 fn impossible_figures_are_refused() {
     let none = Figure { panels: Vec::new(), ..gallery::orders() };
     assert_eq!(svg(&none), Err(PlotError::Empty));
     let refused = |panel: Panel| svg(&Figure::new("bad", "Bad", "", panel)).unwrap_err();
     let map = HeatMap::new(("x", vec!["a".into()]), ("y", vec!["b".into()]), Axis::linear("v"), vec![vec![]]);
     assert!(matches!(refused(map.into()), PlotError::Shape { found: 0, expected: 1, .. }));
+    let raster = |rows| Raster::new(Axis::linear("x"), Axis::linear("y"), Axis::linear("v"), rows);
+    assert_eq!(refused(raster(vec![]).into()), PlotError::Empty);
+    assert!(matches!(
+        refused(raster(vec![vec![None; 2], vec![None]]).into()),
+        PlotError::Shape { found: 1, expected: 2, .. }
+    ));
     let dots = Dots::new(Axis::linear("v"), vec!["g".into()], vec![Category::new("c", [1.0, 2.0])]);
     assert!(matches!(refused(dots.into()), PlotError::Shape { found: 2, expected: 1, .. }));
     let slope = lines(vec![]).guide(Guide::Slope { order: 2.0, label: "2".into() });

@@ -11,6 +11,8 @@ pub struct Drawing {
     pub texts: Vec<Words>,
     /// Centre and radius of what is not filled.
     pub rings: Vec<(f64, f64, f64)>,
+    /// Rectangles drawn together, with their colour.
+    pub cells: Vec<(String, Rect)>,
     filled: Vec<String>,
 }
 
@@ -112,6 +114,10 @@ fn take(drawing: &mut Drawing, name: &str, body: &str, content: &str) {
             let points = attribute(body, "points").split_whitespace().map(|one| pair(one).unwrap()).collect();
             drawing.polylines.push(Polyline { points, stroke: attribute(body, "stroke").to_owned() });
         }
+        "path" => {
+            let fill = attribute(body, "fill");
+            drawing.cells.extend(rectangles(attribute(body, "d")).map(|cell| (fill.to_owned(), cell)));
+        }
         "circle" if attribute(body, "fill") == "none" => {
             drawing.rings.push((number(body, "cx"), number(body, "cy"), number(body, "r")));
         }
@@ -119,6 +125,19 @@ fn take(drawing: &mut Drawing, name: &str, body: &str, content: &str) {
         "text" => drawing.texts.push(words(body, content.trim())),
         _ => {}
     }
+}
+
+/// The rectangles of a path, each written as `m x y h w v h h -w z` from the corner of the one before.
+fn rectangles(path: &str) -> impl Iterator<Item = Rect> {
+    let mut corner = (0.0, 0.0);
+    path.split_terminator('z').map(move |one| {
+        let numbers: Vec<f64> =
+            one.split(['m', ' ', 'h', 'v']).skip(1).map(|number| number.parse().unwrap()).collect();
+        let [x, y, wide, high, back] = numbers[..] else { panic!("not a rectangle: {one}") };
+        assert!(wide > 0.0 && high > 0.0 && back == -wide, "{one}");
+        corner = (corner.0 + x, corner.1 + y);
+        Rect { left: corner.0, top: corner.1, right: corner.0 + wide, bottom: corner.1 + high }
+    })
 }
 
 fn words(body: &str, content: &str) -> Words {

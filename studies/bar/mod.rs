@@ -1,0 +1,21 @@
+//! `pd-verify bar`: a bar marched in time and at rest, held against exact answers of the local bar, of its lattice, and
+//! of the nonlocal continuum.
+
+pub mod jump;
+pub mod jump_convergence;
+mod names;
+pub mod release;
+mod release_report;
+pub mod released;
+
+use crate::written::Word;
+
+/// What a case may ask.
+pub const WORDS: &[Word] = &[
+    Word::of::<release::ReleaseAsked>("release"),
+    Word::of::<jump_convergence::JumpConvergenceAsked>("jump_convergence"),
+];
+
+/// Files that cases share; no figure may take their names.
+pub const TABLES: &[&str] =
+    &["bar_strain", "bar_displacement", "bar_errors", "bar_jump_convergence", "verdicts"];

@@ -1,0 +1,164 @@
+//! The bar of the study: held at the left, stretched by a force at the right, let go; as a scene, and as exact answers.
+
+use crate::dispersion::curve::reference_lattice;
+use pd_verify::constraints::{Edge, Edges};
+use pd_verify::forces::surface::Correction;
+use pd_verify::lattice::Lattice;
+use pd_verify::material::{Body, Material};
+use pd_verify::plan::Plan;
+use pd_verify::scene::{
+    Initial, Operator, Positive, Probe, Rotations, Scene, Shape, StepRule, Time, Watch, Wrong,
+};
+use pd_verify_reference::lattice_modes::LatticeModes;
+use pd_verify_reference::released_bar::ReleasedBar;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The bar as written.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BarAsked {
+    pub length_m: Positive,
+    pub section_m2: Positive,
+    /// It stretches the bar until t = 0.
+    pub force_n: Positive,
+}
+
+/// How far in time a bar is followed, and in which steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Marching {
+    pub duration: f64,
+    pub step: StepRule,
+}
+
+/// Reads a duration with a step that is either given or a fraction of the limit.
+pub fn marching(
+    duration: Positive,
+    time_step: Option<Positive>,
+    safety: Option<Positive>,
+) -> Result<Marching, Wrong> {
+    let step = match (time_step, safety) {
+        (Some(seconds), None) => StepRule::Given { seconds: seconds.0, beyond_limit: false },
+        (None, Some(fraction)) => StepRule::OfLimit(fraction.0),
+        (None, None) => StepRule::OfLimit(0.8),
+        (Some(_), Some(_)) => {
+            return Err(Wrong::new("safety", "the time step is given twice", "keep time_step_s or safety"));
+        }
+    };
+    Ok(Marching { duration: duration.0, step })
+}
+
+/// The bar, checked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Released {
+    pub exact: ReleasedBar,
+    pub material: Material,
+    pub section: f64,
+}
+
+impl BarAsked {
+    pub fn check(&self, material: Option<Material>) -> Result<Released, Wrong> {
+        let Some(material) = material else {
+            let help = "add a [material] table with youngs_modulus_pa and density_kg_m3";
+            return Err(Wrong::new("", "a bar that is marched needs its material", help));
+        };
+        let strain = self.force_n.0 / (material.youngs_modulus * self.section_m2.0);
+        let speed = material.dilatational_speed(Body::Bar);
+        let exact = ReleasedBar { length: self.length_m.0, speed, strain };
+        Ok(Released { exact, material, section: self.section_m2.0 })
+    }
+}
+
+/// Whole cells in a length; refused where they do not fill it.
+pub fn cells(length: f64, spacing: f64) -> Result<usize, Wrong> {
+    let count = length / spacing;
+    if (count - count.round()).abs() <= 1e-9 * count && count.round() >= 1.0 {
+        return Ok(count.round() as usize);
+    }
+    let near = [count.floor().max(1.0), count.floor() + 1.0].map(|n| format!("{:e} m", length / n));
+    let message = format!("cells of {spacing:e} m do not fill a length of {length:e} m");
+    Err(Wrong::new("dx_m", message, format!("take {} or {}", near[1], near[0])))
+}
+
+impl Released {
+    /// The scene: odd mirror at the fixed end, even mirror at the free one, released from u = ε₀x.
+    pub fn scene(
+        &self,
+        lattice: Lattice,
+        spacing: f64,
+        marching: Marching,
+        probes: Vec<Probe<1>>,
+    ) -> Result<Scene<1>, Wrong> {
+        let stretched =
+            Initial { component: 0, amplitude: self.exact.strain, shape: Shape::Linear { along: 0 } };
+        Ok(Scene {
+            name: format!("{lattice}, Δx = {spacing} m"),
+            material: self.material,
+            body: Body::Bar,
+            lattice,
+            nodes: [cells(self.exact.length, spacing)?],
+            spacing,
+            section: self.section,
+            rotations: Rotations::Small,
+            operator: Operator::Stencil,
+            edges: Edges([[Edge::MirrorOdd, Edge::MirrorEven]]),
+            surface: Correction::None,
+            displacement: vec![stretched],
+            velocity: Vec::new(),
+            effects: Vec::new(),
+            time: Time { duration: marching.duration, step: marching.step },
+            probes,
+        })
+    }
+
+    /// vΔt/Δx of a scene.
+    pub fn courant(&self, scene: &Scene<1>, plan: &Plan) -> f64 {
+        self.exact.speed * plan.time_step_s / scene.spacing
+    }
+
+    /// The exact motion of the scene's lattice: in exact time, or as leapfrog carries it.
+    pub fn modes(&self, scene: &Scene<1>, courant: Option<f64>) -> Option<LatticeModes> {
+        LatticeModes::new(reference_lattice(scene.lattice), scene.nodes[0], courant)
+    }
+
+    /// t in s as vt/Δx.
+    pub fn cell_times(&self, scene: &Scene<1>, seconds: f64) -> f64 {
+        self.exact.speed * seconds / scene.spacing
+    }
+
+    /// Displacement of the free end before the release: the peak.
+    pub fn peak(&self) -> f64 {
+        self.exact.strain * self.exact.length
+    }
+}
+
+/// Names of the probes.
+pub const STRAIN: &str = "strain";
+pub const POINT: &str = "displacement";
+pub const LINE: &str = "bar";
+
+/// Strain and displacement at a place every step, and the whole bar some twenty times.
+pub fn probes(at: f64, steps: u64) -> Vec<Probe<1>> {
+    vec![
+        Probe { name: STRAIN.into(), watch: Watch::Strain { at }, every: 1 },
+        Probe { name: POINT.into(), watch: Watch::Point { at: [at] }, every: 1 },
+        whole_bar((steps / 20).max(1)),
+    ]
+}
+
+/// The whole bar every so many steps.
+pub fn whole_bar(every: u64) -> Probe<1> {
+    Probe { name: LINE.into(), watch: Watch::Line { along: 0, through: 0.0 }, every }
+}
+
+/// A scene whose plan says how many steps there are to look at.
+pub fn planned(mut scene: Scene<1>, look: impl Fn(u64) -> Vec<Probe<1>>) -> Result<(Scene<1>, Plan), Wrong> {
+    let place = |wrong: Wrong| match wrong.key.starts_with("probe") {
+        true => Wrong { key: "probe_m".into(), ..wrong },
+        false => wrong,
+    };
+    let steps = Plan::of(&scene).map_err(place)?.steps;
+    scene.probes = look(steps);
+    let plan = Plan::of(&scene).map_err(place)?;
+    Ok((scene, plan))
+}
