@@ -7,6 +7,10 @@ mod names;
 pub mod release;
 mod release_report;
 pub mod released;
+pub mod space_time;
+pub mod spectrum;
+mod spectrum_report;
+pub mod time_order;
 
 use crate::written::Word;
 
@@ -14,8 +18,18 @@ use crate::written::Word;
 pub const WORDS: &[Word] = &[
     Word::of::<release::ReleaseAsked>("release"),
     Word::of::<jump_convergence::JumpConvergenceAsked>("jump_convergence"),
+    Word::of::<time_order::TimeOrderAsked>("time_order"),
+    Word::of::<spectrum::SpectrumAsked>("spectrum"),
+    Word::of::<space_time::SpaceTimeAsked>("space_time"),
 ];
 
 /// Files that cases share; no figure may take their names.
-pub const TABLES: &[&str] =
-    &["bar_strain", "bar_displacement", "bar_errors", "bar_jump_convergence", "verdicts"];
+pub const TABLES: &[&str] = &[
+    "bar_strain",
+    "bar_displacement",
+    "bar_errors",
+    "bar_jump_convergence",
+    "bar_time_order",
+    "bar_spectrum",
+    "verdicts",
+];

@@ -229,4 +229,4 @@ impl Release {
 }
 
 /// The largest value of ∫_z^∞ Ai, less 1: at the first zero of Ai, z = −2.33811.
-const AIRY_OVERSHOOT: f64 = 0.274_352_059_137_675_4;
+pub const AIRY_OVERSHOOT: f64 = 0.274_352_059_137_675_4;

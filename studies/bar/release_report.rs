@@ -5,7 +5,7 @@ use super::names::{LATTICE, lattice_cells};
 use super::release::{Release, Seen};
 use super::released::{POINT, STRAIN};
 use crate::question::Place;
-use pd_verify::report::plot::{Axis, Figure, Lines, Series};
+use pd_verify::report::plot::{Axis, Category, Colour, Dash, Dots, Figure, Lines, Series};
 use pd_verify::table::{Cell, Table};
 
 /// Rows per curve and points per line, about.
@@ -138,7 +138,7 @@ pub fn figures(release: &Release, seen: &[Seen], curves: &[Curve], place: &Place
             let points = milli(&curve.times, of(curve), scale);
             match curve.name.as_str() {
                 "exact" => Series::reference("exact", points),
-                name => Series::line(name, points).width(1.4),
+                name => Series::line(name, points).width(1.4).dash(Dash::Solid),
             }
         });
         Lines::new(Axis::linear("time (ms)"), Axis::linear(what), series.collect())
@@ -155,7 +155,27 @@ pub fn figures(release: &Release, seen: &[Seen], curves: &[Curve], place: &Place
         panel("strain / (F₀/EA)", strain, |curve| &curve.strains),
     )
     .panel(panel("displacement / (F₀L/EA)", release.bar.peak(), |curve| &curve.displacements));
-    vec![histories, error_figure(release, seen, curves, place)]
+    if seen.len() <= DRAWN {
+        vec![histories, error_figure(release, seen, curves, place)]
+    } else {
+        vec![all_errors(release, seen, place)]
+    }
+}
+
+/// The errors of more lattices than curves can tell apart: a row each.
+fn all_errors(release: &Release, seen: &[Seen], place: &Place) -> Figure {
+    let rows = |of: fn(&Seen) -> Option<f64>| -> Vec<Category> {
+        let row =
+            |(label, seen): (&String, &Seen)| Category::new(label.clone(), [of(seen).unwrap_or(f64::NAN)]);
+        release.labels.iter().zip(seen).map(row).collect()
+    };
+    let dots = |label: &str, of| Dots::new(Axis::linear(label), vec!["marched".into()], rows(of));
+    let l1 = dots("(1/T) ∫ |ε − exact| dt / (F₀/EA)", |seen| Some(seen.errors.l1));
+    let overshoot = dots("overshoot behind the first front / jump", |seen| seen.errors.overshoot);
+    let caption = "Mean error of the strain of each lattice, and how far it overshoots: the error is the kernel's and the \
+                   weights', the overshoot is the Airy function's for all.";
+    Figure::new(place.case.clone(), release.title.clone(), caption, l1)
+        .panel(overshoot.reference(super::release::AIRY_OVERSHOOT, "∫ Ai"))
 }
 
 /// |ε − ε_exact| over time: what disperses grows, what comes from a wrong speed drifts.
@@ -173,8 +193,8 @@ fn error_figure(release: &Release, seen: &[Seen], curves: &[Curve], place: &Plac
         curves.iter().filter(|curve| curve.name != "exact" && !curve.name.starts_with("lattice_modes"));
     let series = shown.take(DRAWN + 1).map(|curve| match curve.name.as_str() {
         "fourier" => Series::line(format!("Fourier series, {} terms", release.terms), running(curve))
-            .colour(pd_verify::report::plot::Colour::Black)
-            .dash(pd_verify::report::plot::Dash::Dotted),
+            .colour(Colour::Black)
+            .dash(Dash::Dotted),
         name => Series::line(name, running(curve)).width(1.6),
     });
     let panel = Lines::new(
