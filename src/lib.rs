@@ -5,7 +5,8 @@
 //!
 //! ρ ü(x) = ∫ c(ξ) (ξ⊗ξ/|ξ|³) (u(x + ξ) − u(x)) dV + b,  c(ξ) = c₀ W(|ξ|/δ)
 //!
-//! (Silling 2000, J. Mech. Phys. Solids 48, 175). On a lattice of spacing Δx the integral is a sum over the bonds of a
+//! (Silling 2000, J. Mech. Phys. Solids 48, 175); geometrically exact, a bond pulls with c s along its present direction,
+//! s its stretch ([`forces`]). On a lattice of spacing Δx the integral is a sum over the bonds of a
 //! family, each with the counted fraction β of its cell: weight w = c V β/|ξ|.
 //!
 //! | symbol | meaning | unit | where |
@@ -17,28 +18,60 @@
 //! | β | counted fraction of a neighbour's cell | 1 | [`partial_volume`] |
 //! | w | stiffness of a pair of bonds ±ξ, over C₁₁/Δx² | 1 | [`lattice`] |
 //! | α, β (of α + β cos 4θ) | calibration of the lattice | 1 | [`lattice`] |
+//! | u, d | displacement, its increment over a step | m | [`march`] |
+//! | Δt | time step | s | [`plan`] |
 //! | k, ω | wavenumber, angular frequency | 1/m, 1/s | [`dispersion`] |
 //! | v, c_d, c_s | speed of waves in a bar, dilatational, shear | m/s | [`material`] |
 //!
 //! All quantities are SI; dispersion is computed in units of the spacing (or the horizon) and the wave's own speed.
 //!
-//! # A bar in twenty lines
-//! How much too slow is a wave of ten nodes, and how large may the time step be?
+//! # A bar in thirty lines
+//! A bar held at the left and stretched is let go: how far is the strain at its middle from the exact square wave, half a
+//! period later?
 //! ```
-//! use pd_verify::dispersion::{bar::BarDispersion, leapfrog, timestep};
+//! use pd_verify::constraints::{Edge, Edges};
+//! use pd_verify::forces::surface::Correction;
 //! use pd_verify::kernel::Kernel;
-//! use pd_verify::lattice::{Lattice, Stencil};
+//! use pd_verify::lattice::Lattice;
+//! use pd_verify::material::{Body, Material};
 //! use pd_verify::partial_volume::VolumeRule;
+//! use pd_verify::record::run;
+//! use pd_verify::scene::{Initial, Operator, Probe, Rotations, Scene, Shape, StepRule, Time, Watch};
 //!
-//! let lattice = Lattice {
-//!     kernel: Kernel::Gaussian { p: 2.0 },
-//!     m: 3.0,
-//!     volume_rule: VolumeRule::Linear,
-//!     calibrated: true,
+//! let scene = Scene::<1> {
+//!     name: "released bar".into(),
+//!     material: Material { youngs_modulus: 200e9, density: 7850.0 },
+//!     body: Body::Bar,
+//!     lattice: Lattice { kernel: Kernel::Gaussian { p: 2.0 }, m: 3.0, volume_rule: VolumeRule::Linear, calibrated: true },
+//!     nodes: [400],
+//!     spacing: 1.0 / 400.0,
+//!     section: 1e-6,
+//!     rotations: Rotations::Small,
+//!     operator: Operator::Stencil,
+//!     edges: Edges([[Edge::MirrorOdd, Edge::MirrorEven]]),
+//!     surface: Correction::None,
+//!     displacement: vec![Initial { component: 0, amplitude: 1e-3, shape: Shape::Linear { along: 0 } }],
+//!     velocity: vec![],
+//!     effects: vec![],
+//!     time: Time { duration: 0.4e-3, step: StepRule::OfLimit(0.5) },
+//!     probes: vec![Probe { name: "middle".into(), watch: Watch::Strain { at: 0.5 }, every: 1 }],
 //! };
+//! let record = run(&scene)?;
+//! let strain = record.trace("middle").expect("a probe of that name").column(0);
+//! assert!((strain.last().unwrap() / -1e-3 - 1.0).abs() < 0.1); // −ε₀, with ripples behind the front
+//! # Ok::<(), pd_verify::record::Failure>(())
+//! ```
+//! [`dispersion`] says beforehand how such waves travel, and how large a step they bear:
+//! ```
+//! # use pd_verify::dispersion::{bar::BarDispersion, leapfrog, timestep};
+//! # use pd_verify::kernel::Kernel;
+//! # use pd_verify::lattice::{Lattice, Stencil};
+//! # use pd_verify::partial_volume::VolumeRule;
+//! # let kernel = Kernel::Gaussian { p: 2.0 };
+//! # let lattice = Lattice { kernel, m: 3.0, volume_rule: VolumeRule::Linear, calibrated: true };
 //! let stencil = Stencil::<1>::new(lattice)?;
 //! let limit = timestep::bar(&stencil).sharp; // vΔt/Δx
-//! let theta = 2.0 * std::f64::consts::PI / 10.0; // kΔx
+//! let theta = 2.0 * std::f64::consts::PI / 10.0; // kΔx of ten nodes to the wave
 //! let wave = BarDispersion::new(&stencil).wave(theta);
 //! let marched = leapfrog::wave(wave, 0.9 * limit, None).expect("below the limit");
 //! assert_eq!(format!("{:.4}", wave.phase(theta)), "0.9645"); // 3.5 % too slow in exact time,

@@ -52,7 +52,7 @@ impl<const D: usize> Model<D> {
             edges: scene.edges,
             forces: bonds,
             constraints: Vec::new(),
-            linear: D == 1 || scene.rotations == Rotations::Small,
+            linear: scene.rotations == Rotations::Small,
             grid,
         };
         for (index, effect) in scene.effects.iter().enumerate() {

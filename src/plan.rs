@@ -136,7 +136,10 @@ fn operator_bytes<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, pairs: usize
                 grid.nodes[axis].saturating_sub(free * grid.halo)
             });
             let count: usize = whole.iter().product();
-            let runs = if count == 0 { 0 } else { whole.get(1).copied().unwrap_or(grid.pieces()) };
+            // A plate has a run in each row, a bar one in each piece that holds whole nodes.
+            let first = grid.halo * (1 + usize::from(scene.edges.0[0][0] == Edge::Free));
+            let pieces = || (first + count).div_ceil(grid.piece()) - first / grid.piece();
+            let runs = if count == 0 { 0 } else { whole.get(1).copied().unwrap_or_else(pieces) };
             LatticeStencil::<D, Small>::bytes_for(pairs, runs, grid.count() - count)
         }
     }

@@ -1,6 +1,6 @@
 //! Rest under constant loads: F(u) = 0 by conjugate gradients, for linear bodies; no stiffness matrix is built.
 //!
-//! Driven nodes are held at their displacement of t = 0. A free body under balanced loads keeps its mean displacement.
+//! Driven nodes are held at their displacement of t = 0; what depends on the velocity does not act at rest. A free body under balanced loads keeps its mean displacement.
 
 use crate::forces::{Class, Now};
 use crate::model::Model;
@@ -43,7 +43,9 @@ pub fn rest<const D: usize>(model: &Model<D>, tolerance: f64, most: usize) -> Re
     model.fill_ghosts(&mut displacement);
 
     let mut residual = model.grid.field();
-    model.force(&still(&displacement), &mut residual);
+    for class in [Class::Internal, Class::Load] {
+        model.add_forces(model.of_class(class), &still(&displacement), &mut residual);
+    }
     held.iter().for_each(|&place| residual[place] = 0.0);
     let mut direction = residual.clone();
     let mut image = model.grid.field();

@@ -17,6 +17,7 @@ use pd_verify::model::Model;
 use pd_verify::record::{self, Failure, Record};
 use pd_verify::scene::Scene;
 use pd_verify::statics;
+use pd_verify_reference::released_bar::ReleasedBar;
 
 /// What studies ask of a peridynamics code.
 pub trait Subject: Sync {
@@ -125,6 +126,11 @@ pub trait Subject: Sync {
         let model = Model::new(scene).map_err(|wrong| wrong.message)?;
         let rest = statics::rest(&model, 1e-14, 100 * model.grid.count()).map_err(|none| none.to_string())?;
         Ok(model.grid.each().map(|node| rest.displacement[model.grid.place(node)]).collect())
+    }
+
+    /// The published Fourier series of a released bar's displacement.
+    fn released_series(&self, bar: &ReleasedBar, x: f64, t: f64, terms: usize) -> f64 {
+        bar.fourier_displacement(x, t, terms)
     }
 
     /// What a joint sends back of the left chain's wave.

@@ -27,24 +27,25 @@ fn the_picture_is_what_the_program_draws() {
 }
 
 #[test]
-fn the_study_in_it_runs() {
+fn the_studies_in_it_run() {
     let text = readme();
-    let study = text
-        .split("```toml\n")
-        .nth(1)
-        .and_then(|rest| rest.split("```").next())
-        .expect("a study in the README");
+    let studies: Vec<&str> =
+        text.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    let results = ["my-aluminium/dispersion_curves.csv", "pulled-bar/probes.csv"];
+    assert_eq!(studies.len(), results.len());
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("my-aluminium.toml");
-    fs::write(&file, study).unwrap();
-    program().arg("run").arg(&file).arg("--out").arg(folder.path().join("out")).assert().success();
-    assert!(folder.path().join("out/my-aluminium/dispersion_curves.csv").is_file());
+    for (study, result) in studies.into_iter().zip(results) {
+        let file = folder.path().join("study.toml");
+        fs::write(&file, study).unwrap();
+        program().arg("run").arg(&file).arg("--out").arg(folder.path().join("out")).assert().success();
+        assert!(folder.path().join("out").join(result).is_file());
+    }
 }
 
 #[test]
 fn its_commands_and_options_exist() {
     let text = readme();
-    for command in ["dispersion", "run", "list", "explain", "plan", "schema", "completions"] {
+    for command in ["dispersion", "bar", "run", "list", "explain", "plan", "schema", "completions"] {
         assert!(text.contains(command), "the README does not name {command}");
         program().args([command, "--help"]).assert().success();
     }

@@ -66,7 +66,8 @@ impl<const D: usize, L: Law> BondList<D, L> {
                     let far = std::array::from_fn(|axis| node[axis] + offset[axis] as isize);
                     let weight = bond.weight * factor(if owner { node } else { far }, index);
                     let far = u32::try_from(grid.place(far)).expect("a block has fewer than 2³² places");
-                    list.ends.push(End { far, bond: index as u16, owner, weight });
+                    let bond = u16::try_from(index).expect("a half family has fewer than 2¹⁶ bonds");
+                    list.ends.push(End { far, bond, owner, weight });
                 }
             }
             let place = grid.place(node);

@@ -48,7 +48,7 @@ fn between(points: &[(f64, f64)], t: f64) -> f64 {
 /// The words for a [`History`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Shape {
+pub enum HistoryShape {
     Step,
     Ramp,
     RaisedCosine,
@@ -60,7 +60,7 @@ pub enum Shape {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HistoryAsked {
-    pub shape: Shape,
+    pub shape: HistoryShape,
     /// When it begins; default 0.
     pub start_s: Option<f64>,
     /// Of `ramp` and `raised_cosine`.
@@ -76,11 +76,15 @@ pub struct HistoryAsked {
 impl HistoryAsked {
     pub fn check(&self) -> Result<History, Wrong> {
         let has = [
-            ("start_s", self.start_s.is_some(), self.shape != Shape::Table),
-            ("rise_s", self.rise_s.is_some(), matches!(self.shape, Shape::Ramp | Shape::RaisedCosine)),
-            ("period_s", self.period_s.is_some(), self.shape == Shape::Sine),
-            ("times_s", self.times_s.is_some(), self.shape == Shape::Table),
-            ("values", self.values.is_some(), self.shape == Shape::Table),
+            ("start_s", self.start_s.is_some(), self.shape != HistoryShape::Table),
+            (
+                "rise_s",
+                self.rise_s.is_some(),
+                matches!(self.shape, HistoryShape::Ramp | HistoryShape::RaisedCosine),
+            ),
+            ("period_s", self.period_s.is_some(), self.shape == HistoryShape::Sine),
+            ("times_s", self.times_s.is_some(), self.shape == HistoryShape::Table),
+            ("values", self.values.is_some(), self.shape == HistoryShape::Table),
         ];
         if let Some((key, ..)) = has.iter().find(|(_, given, used)| *given && !used) {
             let message = format!("{key} says nothing about a history of this shape");
@@ -96,11 +100,11 @@ impl HistoryAsked {
         }
         let seconds = |given: Option<Positive>| given.map_or(f64::NAN, |given| given.0);
         Ok(match self.shape {
-            Shape::Step => History::Step { start },
-            Shape::Ramp => History::Ramp { start, rise: seconds(self.rise_s) },
-            Shape::RaisedCosine => History::RaisedCosine { start, rise: seconds(self.rise_s) },
-            Shape::Sine => History::Sine { start, period: seconds(self.period_s) },
-            Shape::Table => self.table()?,
+            HistoryShape::Step => History::Step { start },
+            HistoryShape::Ramp => History::Ramp { start, rise: seconds(self.rise_s) },
+            HistoryShape::RaisedCosine => History::RaisedCosine { start, rise: seconds(self.rise_s) },
+            HistoryShape::Sine => History::Sine { start, period: seconds(self.period_s) },
+            HistoryShape::Table => self.table()?,
         })
     }
 

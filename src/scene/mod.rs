@@ -13,7 +13,7 @@ mod time;
 mod wrong;
 
 pub use effect::{Acts, Effect, Setting};
-pub use history::{History, HistoryAsked};
+pub use history::{History, HistoryAsked, HistoryShape};
 pub use initial::{Initial, InitialAsked, Quantity, Shape};
 pub use place::{Axis, Region, Side};
 pub use positive::Positive;

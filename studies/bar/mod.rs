@@ -3,13 +3,22 @@
 
 pub mod jump;
 pub mod jump_convergence;
+pub mod levels;
 mod names;
+pub mod nonlocal;
+pub mod pulse;
+mod pulse_report;
+pub mod pulsed;
 pub mod release;
 mod release_report;
 pub mod released;
+mod ring;
 pub mod space_time;
 pub mod spectrum;
 mod spectrum_report;
+pub mod statics;
+mod statics_report;
+pub mod stretched;
 pub mod time_order;
 
 use crate::written::Word;
@@ -21,6 +30,9 @@ pub const WORDS: &[Word] = &[
     Word::of::<time_order::TimeOrderAsked>("time_order"),
     Word::of::<spectrum::SpectrumAsked>("spectrum"),
     Word::of::<space_time::SpaceTimeAsked>("space_time"),
+    Word::of::<pulse::PulseAsked>("pulse"),
+    Word::of::<nonlocal::NonlocalPulseAsked>("nonlocal_pulse"),
+    Word::of::<statics::StaticsAsked>("statics"),
 ];
 
 /// Files that cases share; no figure may take their names.
@@ -31,5 +43,9 @@ pub const TABLES: &[&str] = &[
     "bar_jump_convergence",
     "bar_time_order",
     "bar_spectrum",
+    "bar_convergence",
+    "bar_time_steps",
+    "bar_statics",
+    "bar_static_strain",
     "verdicts",
 ];

@@ -146,7 +146,7 @@ error: (1/T) ∫ |ε − ε_exact| dt / (F₀/EA)"
         };
         let curves = release_report::curves(self, &seen);
         Answer {
-            evidence: self.evidence(&seen),
+            evidence: self.evidence(subject, &seen),
             tables: release_report::tables(self, &seen, &curves, place),
             figures: release_report::figures(self, &seen, &curves, place),
         }
@@ -188,7 +188,7 @@ impl Release {
         largest(trace.times.iter().zip(&trace.rows).map(|row| at(row).unwrap_or(f64::NAN)))
     }
 
-    fn evidence(&self, seen: &[Seen]) -> Vec<(String, Evidence)> {
+    fn evidence(&self, subject: &dyn Subject, seen: &[Seen]) -> Vec<(String, Evidence)> {
         let worst = |of: &dyn Fn(&Seen) -> Option<f64>| {
             seen.iter().map(of).collect::<Option<Vec<f64>>>().and_then(largest)
         };
@@ -201,7 +201,7 @@ impl Release {
             exact_time.map_or(String::new(), |error| format!("{error:.2e} against modes in exact time"));
         let mut evidence = vec![
             ("modes".into(), error_of(worst(&|seen| seen.modes), note)),
-            ("fourier".into(), error_of(self.fourier_error(seen), format!("{} terms", self.terms))),
+            ("fourier".into(), error_of(self.fourier_error(subject, seen), format!("{} terms", self.terms))),
             ("front_speed".into(), error_of(speed, format!("{} lattices", seen.len()))),
             (
                 "overshoot".into(),
@@ -216,12 +216,12 @@ impl Release {
     }
 
     /// The series against d'Alembert at the times of the line probe, over the bound of what is left out.
-    fn fourier_error(&self, seen: &[Seen]) -> Option<f64> {
+    fn fourier_error(&self, subject: &dyn Subject, seen: &[Seen]) -> Option<f64> {
         let times = &seen.first()?.record.trace(POINT)?.times;
         let bar = &self.bar.exact;
         let bound = 2.0 * bar.strain * bar.length / (std::f64::consts::PI.powi(2) * self.terms as f64);
         let error = |t: &f64| {
-            let series = bar.fourier_displacement(self.place, *t, self.terms);
+            let series = subject.released_series(bar, self.place, *t, self.terms);
             (series - bar.displacement_at(self.place, *t)).abs() / bound
         };
         largest(times.iter().step_by((times.len() / 400).max(1)).map(error))

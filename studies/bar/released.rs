@@ -1,14 +1,13 @@
 //! The bar of the study: held at the left, stretched by a force at the right, let go; as a scene, and as exact answers.
 
 use crate::dispersion::curve::reference_lattice;
+use crate::scene;
 use pd_verify::constraints::{Edge, Edges};
 use pd_verify::forces::surface::Correction;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
-use pd_verify::scene::{
-    Initial, Operator, Positive, Probe, Rotations, Scene, Shape, StepRule, Time, Watch, Wrong,
-};
+use pd_verify::scene::{Initial, Operator, Positive, Probe, Rotations, Scene, Shape, Time, Watch, Wrong};
 use pd_verify_reference::lattice_modes::LatticeModes;
 use pd_verify_reference::released_bar::ReleasedBar;
 use schemars::JsonSchema;
@@ -24,28 +23,18 @@ pub struct BarAsked {
     pub force_n: Positive,
 }
 
-/// How far in time a bar is followed, and in which steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Marching {
-    pub duration: f64,
-    pub step: StepRule,
-}
-
 /// Reads a duration with a step that is either given or a fraction of the limit.
 pub fn marching(
     duration: Positive,
     time_step: Option<Positive>,
     safety: Option<Positive>,
-) -> Result<Marching, Wrong> {
-    let step = match (time_step, safety) {
-        (Some(seconds), None) => StepRule::Given { seconds: seconds.0, beyond_limit: false },
-        (None, Some(fraction)) => StepRule::OfLimit(fraction.0),
-        (None, None) => StepRule::OfLimit(0.8),
-        (Some(_), Some(_)) => {
-            return Err(Wrong::new("safety", "the time step is given twice", "keep time_step_s or safety"));
-        }
-    };
-    Ok(Marching { duration: duration.0, step })
+) -> Result<Time, Wrong> {
+    scene::time::time(duration.0, safety.map(|s| s.0), time_step.map(|s| s.0), None)
+}
+
+/// Whole cells in a length; refused where they do not fill it.
+pub fn cells(length: f64, spacing: f64) -> Result<usize, Wrong> {
+    Ok(scene::size::cells([length], spacing)?.0[0])
 }
 
 /// The bar, checked.
@@ -69,24 +58,13 @@ impl BarAsked {
     }
 }
 
-/// Whole cells in a length; refused where they do not fill it.
-pub fn cells(length: f64, spacing: f64) -> Result<usize, Wrong> {
-    let count = length / spacing;
-    if (count - count.round()).abs() <= 1e-9 * count && count.round() >= 1.0 {
-        return Ok(count.round() as usize);
-    }
-    let near = [count.floor().max(1.0), count.floor() + 1.0].map(|n| format!("{:e} m", length / n));
-    let message = format!("cells of {spacing:e} m do not fill a length of {length:e} m");
-    Err(Wrong::new("dx_m", message, format!("take {} or {}", near[1], near[0])))
-}
-
 impl Released {
     /// The scene: odd mirror at the fixed end, even mirror at the free one, released from u = ε₀x.
     pub fn scene(
         &self,
         lattice: Lattice,
         spacing: f64,
-        marching: Marching,
+        time: Time,
         probes: Vec<Probe<1>>,
     ) -> Result<Scene<1>, Wrong> {
         let stretched =
@@ -106,7 +84,7 @@ impl Released {
             displacement: vec![stretched],
             velocity: Vec::new(),
             effects: Vec::new(),
-            time: Time { duration: marching.duration, step: marching.step },
+            time,
             probes,
         })
     }

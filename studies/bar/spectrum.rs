@@ -2,7 +2,7 @@
 //! the march, beside the dispersion curve; the error of each mode by wavenumber.
 
 use super::names::{names, slug};
-use super::released::{BarAsked, LINE, Marching, Released, STRAIN, planned, whole_bar};
+use super::released::{BarAsked, LINE, Released, STRAIN, planned, whole_bar};
 use super::spectrum_report;
 use crate::dispersion::curve::reference_lattice;
 use crate::dispersion::sweep::LatticeSweep;
@@ -15,7 +15,7 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
 use pd_verify::record::Record;
-use pd_verify::scene::{Positive, Probe, Scene, StepRule, Watch, Wrong};
+use pd_verify::scene::{Positive, Probe, Scene, StepRule, Time, Watch, Wrong};
 use pd_verify_reference as reference;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -76,7 +76,7 @@ impl Asked for SpectrumAsked {
         let bar = self.bar.check(written.material)?;
         let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;
         let step = StepRule::Given { seconds: self.time_step_s.0, beyond_limit: false };
-        let marching = Marching { duration: self.duration_s.0, step };
+        let marching = Time { duration: self.duration_s.0, step };
         let look = |steps: u64| {
             let strain = Probe { name: STRAIN.into(), watch: Watch::Strain { at: self.probe_m.0 }, every: 1 };
             vec![strain, whole_bar((steps / LOOKS).max(1))]

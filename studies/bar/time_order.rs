@@ -1,7 +1,7 @@
 //! `asks = "time_order"`: the march against the lattice's own modes, in exact time and as leapfrog carries them, over Δt.
 
 use super::names::{LATTICE, lattice_cells, names, slug};
-use super::released::{BarAsked, LINE, Marching, Released, planned, whole_bar};
+use super::released::{BarAsked, LINE, Released, planned, whole_bar};
 use crate::dispersion::sweep::LatticeSweep;
 use crate::question::{Answer, Claiming, Place, Planned, Question, claim, error_of};
 use crate::subject::Subject;
@@ -12,7 +12,7 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
 use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Series};
-use pd_verify::scene::{Positive, Scene, StepRule, Wrong};
+use pd_verify::scene::{Positive, Scene, StepRule, Time, Wrong};
 use pd_verify::table::{Cell, Table};
 use pd_verify::verdict::Evidence;
 use rayon::prelude::*;
@@ -71,7 +71,7 @@ impl Asked for TimeOrderAsked {
         for (&lattice, name) in lattices.iter().zip(names(&lattices)) {
             let scene = |step: &Positive| {
                 let step = StepRule::Given { seconds: step.0, beyond_limit: false };
-                let marching = Marching { duration: self.duration_s.0, step };
+                let marching = Time { duration: self.duration_s.0, step };
                 let scene = bar.scene(lattice, self.dx_m.0, marching, Vec::new())?;
                 planned(scene, |steps| vec![whole_bar((steps / 20).max(1))])
             };

@@ -26,7 +26,7 @@ pub mod symmetry;
 pub mod time_step;
 mod trace;
 mod wavenumbers;
-mod words;
+pub mod words;
 
 use crate::written::Word;
 

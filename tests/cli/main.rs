@@ -7,6 +7,7 @@ mod limits;
 mod place;
 mod refusals;
 mod results;
+mod scenes;
 mod settings;
 mod studies;
 mod support;

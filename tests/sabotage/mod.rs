@@ -1,9 +1,11 @@
 //! Every claim can fail: the library with one ingredient made wrong must lose at least one verdict, and every claim
 //! must be lost to at least one wrong ingredient.
 
+mod bar_faults;
 mod faults;
 mod oracles;
 
+use crate::kind::Kind;
 use crate::progress::Silent;
 use crate::question::Profile;
 use crate::run::run;
@@ -29,13 +31,22 @@ fn turned(sound: Verdict, faulty: Verdict) -> bool {
 }
 
 #[test]
-fn every_fault_is_caught_and_every_claim_can_fail() {
-    let studies = shipped(None, &[]).expect("the shipped studies are sound");
+fn every_fault_in_waves_is_caught_and_every_claim_about_them_can_fail() {
+    check(Kind::Dispersion, faults::all());
+}
+
+#[test]
+fn every_fault_in_bars_is_caught_and_every_claim_about_them_can_fail() {
+    check(Kind::Bar, bar_faults::all());
+}
+
+/// Runs the shipped studies of a kind with each fault.
+fn check(kind: Kind, faults: Vec<(&'static str, Box<dyn Subject + Send>)>) {
+    let studies = shipped(Some(kind), &[]).expect("the shipped studies are sound");
     let sound = verdicts(&studies, &PdVerify);
     let bad: Vec<_> = sound.iter().filter(|(_, v)| !matches!(v, Verdict::Pass | Verdict::Xfail)).collect();
     assert!(bad.is_empty(), "without any fault: {bad:?}");
 
-    let faults = faults::all();
     let lost: Vec<(&str, BTreeSet<String>)> = faults
         .par_iter()
         .map(|(name, subject)| {

@@ -1,0 +1,168 @@
+//! Levels of a refinement: errors in three norms, the order at which they fall, and their rows in `bar_convergence.csv`.
+
+use pd_verify::compare::order;
+use pd_verify::lattice::Lattice;
+use pd_verify::scene::{Positive, Wrong};
+use pd_verify::table::{Cell, Table};
+use pd_verify::verdict::Evidence;
+
+/// The norms of [`Errors`], as tables name them.
+pub const NORMS: [&str; 3] = ["l1", "l2", "linf"];
+
+/// An error in each norm, over the same norm of the exact field.
+pub type Errors = [f64; 3];
+
+/// Relative errors from many pairs (computed, exact).
+pub fn relative(pairs: impl IntoIterator<Item = (f64, f64)>) -> Errors {
+    let (mut error, mut size) = ([0.0_f64; 3], [0.0_f64; 3]);
+    let mut all_numbers = true;
+    for (computed, exact) in pairs {
+        let (far, exact) = ((computed - exact).abs(), exact.abs());
+        all_numbers &= far.is_finite();
+        error = [error[0] + far, error[1] + far * far, error[2].max(far)];
+        size = [size[0] + exact, size[1] + exact * exact, size[2].max(exact)];
+    }
+    if !all_numbers {
+        return [f64::NAN; 3];
+    }
+    [error[0] / size[0], (error[1] / size[1]).sqrt(), error[2] / size[2]]
+}
+
+/// One refinement of a lattice: a step h with its errors, from coarse to fine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sequence {
+    pub name: String,
+    pub levels: Vec<(f64, Errors)>,
+}
+
+impl Sequence {
+    /// (h, error) in one norm.
+    pub fn in_norm(&self, norm: usize) -> Vec<(f64, f64)> {
+        self.levels.iter().map(|(h, errors)| (*h, errors[norm])).collect()
+    }
+
+    /// The order in one norm over all levels above a floor; what lies at the floor is left out and counted.
+    pub fn order(&self, norm: usize, expected: f64, floor: f64) -> Evidence {
+        order_of(&self.name, &self.in_norm(norm), expected, floor)
+    }
+}
+
+/// The observed order of some levels, beside the expected one.
+pub fn order_of(name: &str, levels: &[(f64, f64)], expected: f64, floor: f64) -> Evidence {
+    let resolved: Vec<_> =
+        levels.iter().copied().filter(|level| level.1.is_nan() || level.1 > floor).collect();
+    let sound = resolved.len() >= 3 && resolved.iter().all(|level| level.1.is_finite());
+    let order = if sound { order::fitted(&resolved) } else { None };
+    let left_out = match levels.len() - resolved.len() {
+        0 => String::new(),
+        count => format!(", {count} at the round-off floor of {floor:e} left out"),
+    };
+    Evidence {
+        computed: order.map(|order| order.value),
+        reference: Some(expected),
+        error: order.map(|order| (order.value - expected).abs()),
+        order,
+        note: format!("{name}: {} levels{left_out}", resolved.len()),
+        ..Evidence::default()
+    }
+}
+
+/// The evidence that is furthest from what is expected; one without a number is further than any.
+pub fn furthest(all: impl IntoIterator<Item = Evidence>) -> Option<Evidence> {
+    let far = |evidence: &Evidence| evidence.error.filter(|error| !error.is_nan()).unwrap_or(f64::INFINITY);
+    all.into_iter().max_by(|a, b| far(a).total_cmp(&far(b)))
+}
+
+/// The table that δ- and m-convergence share.
+pub fn table() -> Table {
+    let columns = [
+        "sequence",
+        "case",
+        "kernel",
+        "p",
+        "volume_rule",
+        "calibrated",
+        "m",
+        "dx_m",
+        "horizon_m",
+        "norm",
+        "error",
+        "pairwise_order",
+    ];
+    Table::new("bar_convergence.csv", &columns)
+}
+
+/// Adds the rows of one refinement; `at` gives the lattice and Δx of a level.
+pub fn push(
+    table: &mut Table,
+    sequence: &str,
+    case: &str,
+    levels: &Sequence,
+    at: impl Fn(usize) -> (Lattice, f64),
+) {
+    for (norm, name) in NORMS.iter().enumerate() {
+        let errors = levels.in_norm(norm);
+        for (index, &(_, error)) in errors.iter().enumerate() {
+            let (lattice, spacing) = at(index);
+            let row: [Cell; 12] = [
+                sequence.into(),
+                case.into(),
+                lattice.kernel.name().into(),
+                lattice.kernel.p().into(),
+                lattice.volume_rule.name().into(),
+                lattice.calibrated.into(),
+                lattice.m.into(),
+                spacing.into(),
+                (lattice.m * spacing).into(),
+                (*name).into(),
+                error.into(),
+                pairwise(&errors, index).into(),
+            ];
+            table.push(row.to_vec());
+        }
+    }
+}
+
+/// The order from the level before.
+pub fn pairwise(levels: &[(f64, f64)], index: usize) -> Option<f64> {
+    order::pairwise(levels[index.checked_sub(1)?], levels[index])
+}
+
+/// Steps of a refinement, each finer than the one before; fewer than three make no order.
+pub fn refining(key: &str, steps: &[Positive], finer: impl Fn(f64, f64) -> bool) -> Result<Vec<f64>, Wrong> {
+    let steps: Vec<f64> = steps.iter().map(|step| step.0).collect();
+    if steps.len() < 3 || !steps.windows(2).all(|pair| finer(pair[0], pair[1])) {
+        let message = "an order needs three levels or more, each finer than the one before";
+        return Err(Wrong::new(key, message, "write them from coarse to fine"));
+    }
+    Ok(steps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn norms_are_over_those_of_the_exact_field() {
+        let [l1, l2, most] = relative([(1.0, 2.0), (4.0, 4.0), (-2.0, -4.0)]);
+        assert_eq!([l1, most], [0.3, 0.5]);
+        assert!((l2 - (5.0_f64 / 36.0).sqrt()).abs() < 1e-15);
+        assert!(relative([(f64::NAN, 1.0), (1.0, 1.0)]).iter().all(|error| error.is_nan()));
+    }
+
+    #[test]
+    fn what_is_at_the_floor_is_left_out_and_said() {
+        let levels = [(0.4, 1.6e-1), (0.2, 4e-2), (0.1, 1e-2), (0.05, 1e-13)];
+        let evidence = order_of("lattice", &levels, 2.0, 1e-10);
+        assert!((evidence.computed.unwrap() - 2.0).abs() < 1e-12);
+        assert!(evidence.note.ends_with("3 levels, 1 at the round-off floor of 1e-10 left out"));
+        assert_eq!(order_of("lattice", &levels[2..], 2.0, 1e-10).computed, None);
+    }
+
+    #[test]
+    fn a_missing_order_is_the_furthest() {
+        let none = order_of("x", &[(1.0, f64::NAN), (0.5, 1.0), (0.25, 0.5)], 1.0, 0.0);
+        let one = order_of("y", &[(1.0, 4.0), (0.5, 2.0), (0.25, 1.0)], 1.0, 0.0);
+        assert_eq!(furthest([none, one]).unwrap().computed, None);
+    }
+}

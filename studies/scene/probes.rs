@@ -1,0 +1,154 @@
+//! Probes as written, what each of them sees, and when.
+
+use crate::input::{OneOrMany, nearest};
+use pd_verify::plan::Plan;
+use pd_verify::scene::{Axis, Probe, Watch, Wrong};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// What a probe watches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WatchName {
+    /// Displacement at a place.
+    Point,
+    /// Strain of a bar at a place.
+    Strain,
+    /// Displacements along a row or a column of nodes.
+    Line,
+    /// Kinetic and elastic energy, and the work done on the body.
+    Energies,
+    Momentum,
+}
+
+/// A probe as written.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ProbeAsked {
+    /// Part of the names of its figures.
+    pub name: String,
+    pub watches: WatchName,
+    /// Of `point` and `strain`: the place, one number per axis.
+    pub at_m: Option<OneOrMany<f64>>,
+    /// Of `line`; default x.
+    pub along: Option<Axis>,
+    /// Of `line` in a plate: where it crosses the other axis.
+    pub through_m: Option<f64>,
+    /// Steps from one look to the next. Default: 1, beyond 2000 steps such that there are about 500 looks; a line is
+    /// seen at t = 0 and 5 times more.
+    pub every_steps: Option<u64>,
+}
+
+impl ProbeAsked {
+    /// The probe; how often it looks is settled by [`ProbeAsked::every`] when the steps are known.
+    pub fn check<const D: usize>(&self, size: [f64; D]) -> Result<Probe<D>, Wrong> {
+        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
+        if self.name.is_empty() || self.name.len() > 40 || !self.name.chars().all(plain) {
+            let message = format!("\"{}\" cannot name a figure", self.name);
+            return Err(Wrong::new("name", message, "use lower-case letters, digits, - and _, at most 40"));
+        }
+        self.check_keys::<D>()?;
+        let watch = match self.watches {
+            WatchName::Point => Watch::Point { at: self.place(size)? },
+            WatchName::Strain => Watch::Strain { at: self.place(size)?[0] },
+            WatchName::Energies => Watch::Energies,
+            WatchName::Momentum => Watch::Momentum,
+            WatchName::Line => {
+                let along = self.along.unwrap_or(Axis::X).index::<D>();
+                let along = along.map_err(|wrong| Wrong { key: "along".into(), ..wrong })?;
+                let other = size.get(1 - along).copied().unwrap_or(0.0);
+                Watch::Line { along, through: snapped(self.through_m.unwrap_or(0.0), other) }
+            }
+        };
+        Ok(Probe { name: self.name.clone(), watch, every: self.every_steps.unwrap_or(1) })
+    }
+
+    /// Keys that this probe needs, and those that say nothing about it.
+    fn check_keys<const D: usize>(&self) -> Result<(), Wrong> {
+        let placed = matches!(self.watches, WatchName::Point | WatchName::Strain);
+        let line = self.watches == WatchName::Line;
+        let keys = [
+            ("at_m", self.at_m.is_some(), placed, placed),
+            ("along", self.along.is_some(), line, false),
+            ("through_m", self.through_m.is_some(), line && D == 2, line && D == 2),
+        ];
+        if let Some((key, ..)) = keys.iter().find(|(_, given, used, _)| *given && !used) {
+            let message = format!("{key} says nothing about this probe");
+            return Err(Wrong::new(*key, message, "leave it out"));
+        }
+        match keys.iter().find(|(_, given, _, needed)| !given && *needed) {
+            Some((key, ..)) => Err(Wrong::new("", format!("this probe needs {key}"), format!("add {key}"))),
+            None => Ok(()),
+        }
+    }
+
+    fn place<const D: usize>(&self, size: [f64; D]) -> Result<[f64; D], Wrong> {
+        let given = self.at_m.as_ref().map_or(&[][..], |at| &at.0);
+        let at: [f64; D] = given.try_into().map_err(|_| {
+            let message = format!("{} number(s) are no place in this body", given.len());
+            Wrong::new("at_m", message, format!("give {D}, one per axis; one probe for each place"))
+        })?;
+        Ok(std::array::from_fn(|axis| snapped(at[axis], size[axis])))
+    }
+
+    /// The axis along which a line runs.
+    pub fn axis(&self) -> usize {
+        usize::from(self.along == Some(Axis::Y))
+    }
+
+    /// Steps from one look to the next.
+    pub fn every(&self, steps: u64) -> u64 {
+        let chosen = match self.watches {
+            WatchName::Line => (steps / 5).max(1),
+            _ if steps <= 2000 => 1,
+            _ => steps.div_ceil(500),
+        };
+        self.every_steps.unwrap_or(chosen)
+    }
+}
+
+/// A place meant to be the far edge must not miss it by rounding.
+fn snapped(at: f64, size: f64) -> f64 {
+    if (at - size).abs() <= 1e-9 * size { size } else { at }
+}
+
+/// Names of the quantities that a probe sees, in a body of `dimension` axes.
+pub fn quantities(watches: WatchName, dimension: usize) -> &'static [&'static str] {
+    match watches {
+        WatchName::Point | WatchName::Line => &["displacement_x", "displacement_y"][..dimension],
+        WatchName::Strain => &["strain"],
+        WatchName::Momentum => &["momentum_x", "momentum_y"][..dimension],
+        WatchName::Energies => {
+            &["kinetic", "elastic", "work_of_loads", "work_of_damping", "work_of_driven_nodes"]
+        }
+    }
+}
+
+/// The first and the last time at which a probe sees something, and how many there are.
+pub fn looks(watches: WatchName, every: u64, plan: &Plan) -> (f64, f64, u64) {
+    let (step, half) = (plan.time_step_s, 0.5 * plan.time_step_s);
+    let last = |count: u64| count as f64 * every as f64 * step;
+    match watches {
+        WatchName::Energies => {
+            let after = plan.steps.saturating_sub(1) / every;
+            (half, last(after) + half, after + 1)
+        }
+        WatchName::Momentum => {
+            let count = plan.steps / every;
+            (every as f64 * step - half, last(count) - half, count)
+        }
+        _ => {
+            let after = plan.steps / every;
+            (0.0, last(after), after + 1)
+        }
+    }
+}
+
+/// "did you mean …?" for a probe that nobody has.
+pub fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> String {
+    let listed = known.clone().collect::<Vec<_>>().join(", ");
+    match nearest(name, known) {
+        Some(near) => format!("did you mean \"{near}\"? there are: {listed}"),
+        None => format!("there are: {listed}"),
+    }
+}

@@ -1,0 +1,104 @@
+//! What a plan says a scene costs, held against the model that is made of it and against counting.
+
+use crate::bodies::{cases, constant, each_bond, effect, model, scene};
+use crate::wrong::{Way, spoilt};
+use pd_verify::constraints::Edge::{self, Free, MirrorEven, MirrorOdd, Periodic};
+use pd_verify::constraints::Edges;
+use pd_verify::forces::surface::Correction;
+use pd_verify::forces::{BodyForce, Traction};
+use pd_verify::model::Model;
+use pd_verify::partial_volume::VolumeRule;
+use pd_verify::plan::Plan;
+use pd_verify::scene::{Operator, Scene};
+use serde_json::json;
+
+/// State and force, and what the terms of a model say they keep.
+fn bytes<const D: usize>(model: &Model<D>) -> usize {
+    let terms: usize = model.forces().iter().map(|force| force.bytes()).sum();
+    terms + 3 * 8 * model.grid.field().len()
+}
+
+/// Whether the plan's bytes are the model's and its bonds those that one can count.
+fn costs<const D: usize>(scene: &Scene<D>, model: &Model<D>) -> Result<(), String> {
+    let plan = Plan::of(scene).map_err(|wrong| wrong.message)?;
+    let planned = (plan.bytes_per_node * plan.nodes as f64).round() as usize;
+    if planned != bytes(model) {
+        return Err(format!("{}: planned {planned} bytes, kept {}", scene.name, bytes(model)));
+    }
+    let mut ends = 0;
+    each_bond(scene, &model.grid, |_, _, _| ends += 1);
+    // A bond ends twice in the body, or once there and once in an image of it.
+    if plan.bonds != ends / 2 || plan.bond_updates != plan.bonds * plan.steps {
+        return Err(format!("{}: planned {} bonds, counted {} ends", scene.name, plan.bonds, ends));
+    }
+    Ok(())
+}
+
+#[test]
+fn a_plan_knows_bytes_and_bonds() {
+    for scene in cases::<1>(&[1.0, 3.015, 5.0], [13]) {
+        costs(&scene, &model(&scene)).unwrap();
+    }
+    for scene in cases::<2>(&[2.0, 3.015], [9, 7]) {
+        costs(&scene, &model(&scene)).unwrap();
+    }
+    let step = json!({ "shape": "step" });
+    let pull = json!({ "edge": "top", "axis": "y", "stress_pa": 1e6, "history": step });
+    let corner = json!({ "from_m": [0.0, 0.0], "to_m": [0.01, 0.02] });
+    let push = json!({ "axis": "x", "density_n_m3": 1e6, "region": corner, "history": step });
+    let effects = vec![effect::<2, Traction>(pull), effect::<2, BodyForce>(push)];
+    let plate = scene::<2>(constant(3.0, VolumeRule::Linear, false), [150, 130]);
+    for operator in [Operator::Stencil, Operator::Bonds] {
+        let loaded = Scene { operator, effects: effects.clone(), ..plate.clone() };
+        costs(&loaded, &model(&loaded)).unwrap();
+    }
+    costs(&plate, &spoilt(&plate, Way::Heavy)).unwrap_err();
+    let other = Scene { edges: Edges([[Periodic; 2], [Free; 2]]), ..plate.clone() };
+    costs(&other, &model(&plate)).unwrap_err();
+}
+
+/// Around the length of a piece of work: the last piece may hold few nodes with all their bonds, or none.
+#[test]
+fn a_plan_knows_the_bytes_of_bars_of_one_piece_and_a_bit() {
+    for edges in [[Free, Free], [MirrorOdd, Free], [Free, MirrorEven], [Periodic, Periodic]] {
+        for nodes in [8180, 8183, 8185, 8186, 8187, 8189, 8192, 8195, 8200] {
+            let name = format!("{nodes} nodes, edges {edges:?}");
+            let bar = scene::<1>(constant(3.0, VolumeRule::Full, false), [nodes]);
+            let bar = Scene { name, edges: Edges([edges]), ..bar };
+            costs(&bar, &model(&bar)).unwrap();
+        }
+    }
+}
+
+/// A corrected body keeps its band as a list; the plan, which does not look at each bond of it, may say more, not less.
+#[test]
+fn a_plan_promises_no_less_than_a_corrected_body_keeps() {
+    for surface in [Correction::Energy, Correction::Volume] {
+        let plate = scene::<2>(constant(3.0, VolumeRule::Linear, false), [40, 30]);
+        let plate = Scene { surface, ..plate };
+        let plan = Plan::of(&plate).unwrap();
+        let share = plan.bytes_per_node * plan.nodes as f64 / bytes(&model(&plate)) as f64;
+        assert!((1.0..1.3).contains(&share), "{share}");
+    }
+}
+
+/// By hand. A bar of 10 nodes, m = 2, free: 9 + 8 bonds; 3 fields of 14 numbers; a mask for each of the 4 nodes at the
+/// ends and one run between them. A plate of 6 × 5, m = √2, free: 5·5 + 6·4 along the axes, 2·5·4 across.
+#[test]
+fn costs_of_a_bar_and_a_plate_by_hand() {
+    let bar = scene::<1>(constant(2.0, VolumeRule::Full, false), [10]);
+    let plan = Plan::of(&bar).unwrap();
+    assert_eq!((plan.nodes, plan.bonds), (10, 17));
+    // A run is a place and a length; a mask is a place, a list of one word and that word.
+    assert_eq!(plan.bytes_per_node, (3 * 14 * 8 + 16 + 4 * (8 + 24 + 8)) as f64 / 10.0);
+    let plate = scene::<2>(constant(1.5, VolumeRule::Full, false), [6, 5]);
+    let plan = Plan::of(&plate).unwrap();
+    assert_eq!((plan.nodes, plan.bonds), (30, 25 + 24 + 40));
+    let whole = 4 * 3;
+    assert_eq!(
+        (plan.bytes_per_node * 30.0).round() as usize,
+        3 * 8 * (2 * 8 * 7) + 3 * 16 + (30 - whole) * 40
+    );
+    let mirrored = Scene { edges: Edges([[Edge::MirrorOdd; 2]]), ..bar };
+    assert_eq!(Plan::of(&mirrored).unwrap().bonds, 20);
+}
