@@ -25,36 +25,26 @@
 //!
 //! All quantities are SI; dispersion is computed in units of the spacing (or the horizon) and the wave's own speed.
 //!
-//! # A bar in thirty lines
+//! # A bar in twenty lines
 //! A bar held at the left and stretched is let go: how far is the strain at its middle from the exact square wave, half a
 //! period later?
 //! ```
 //! use pd_verify::constraints::{Edge, Edges};
-//! use pd_verify::forces::surface::Correction;
 //! use pd_verify::kernel::Kernel;
 //! use pd_verify::lattice::Lattice;
 //! use pd_verify::material::{Body, Material};
 //! use pd_verify::partial_volume::VolumeRule;
 //! use pd_verify::record::run;
-//! use pd_verify::scene::{Initial, Operator, Probe, Rotations, Scene, Shape, StepRule, Time, Watch};
+//! use pd_verify::scene::{Initial, Probe, Scene, Shape, StepRule, Time, Watch};
 //!
-//! let scene = Scene::<1> {
-//!     name: "released bar".into(),
-//!     material: Material { youngs_modulus: 200e9, density: 7850.0 },
-//!     body: Body::Bar,
-//!     lattice: Lattice { kernel: Kernel::Gaussian { p: 2.0 }, m: 3.0, volume_rule: VolumeRule::Linear, calibrated: true },
-//!     nodes: [400],
-//!     spacing: 1.0 / 400.0,
-//!     section: 1e-6,
-//!     rotations: Rotations::Small,
-//!     operator: Operator::Stencil,
+//! let steel = Material { youngs_modulus: 200e9, density: 7850.0 };
+//! let lattice = Lattice { kernel: Kernel::Gaussian { p: 2.0 }, m: 3.0, volume_rule: VolumeRule::Linear, calibrated: true };
+//! let time = Time { duration: 0.4e-3, step: StepRule::OfLimit(0.5) };
+//! let scene = Scene {
 //!     edges: Edges([[Edge::MirrorOdd, Edge::MirrorEven]]),
-//!     surface: Correction::None,
 //!     displacement: vec![Initial { component: 0, amplitude: 1e-3, shape: Shape::Linear { along: 0 } }],
-//!     velocity: vec![],
-//!     effects: vec![],
-//!     time: Time { duration: 0.4e-3, step: StepRule::OfLimit(0.5) },
 //!     probes: vec![Probe { name: "middle".into(), watch: Watch::Strain { at: 0.5 }, every: 1 }],
+//!     ..Scene::bare(steel, Body::Bar, lattice, [400], 1.0 / 400.0, time)
 //! };
 //! let record = run(&scene)?;
 //! let strain = record.trace("middle").expect("a probe of that name").column(0);

@@ -44,7 +44,7 @@ impl Plan {
         check_probes(scene)?;
         let grid = Grid::new(scene.nodes, scene.spacing, stencil.reach());
         let setting = Setting { grid: &grid, density: scene.material.density };
-        let mut bytes = state_bytes(&grid);
+        let mut bytes = state_bytes(scene, &grid);
         for (index, effect) in scene.effects.iter().enumerate() {
             let acts = effect.act(&setting).map_err(|wrong| wrong.inside(&format!("effect[{index}]")))?;
             bytes += if let Acts::Force(force) = acts { force.bytes() } else { 0 };
@@ -106,9 +106,11 @@ fn band<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>, grid: &Grid<D>) 
     }
 }
 
-/// Displacement, increment and force.
-fn state_bytes<const D: usize>(grid: &Grid<D>) -> usize {
-    3 * size_of::<f64>() * grid.field().len()
+/// Displacement, increment and force, and what the ledger remembers of each step.
+fn state_bytes<const D: usize>(scene: &Scene<D>, grid: &Grid<D>) -> usize {
+    let ledger = scene.probes.iter().any(|probe| probe.watch == Watch::Energies);
+    let fields = if ledger { 6 } else { 3 };
+    fields * size_of::<f64>() * grid.field().len()
 }
 
 /// Bonds counted once from each of their ends.

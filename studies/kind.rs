@@ -49,6 +49,15 @@ impl Kind {
         }
     }
 
+    /// Ends of the names of figures beside the one that is called like its case.
+    pub fn suffixes(self) -> &'static [&'static str] {
+        match self {
+            Self::Dispersion => dispersion::SUFFIXES,
+            Self::Bar => bar::SUFFIXES,
+            Self::Scene => &[],
+        }
+    }
+
     /// Turns a case into the question that it asks, or says what is wrong with it.
     pub fn read_case(self, asks: &str, written: &Written<'_>) -> Result<Box<dyn Question>, Refusal> {
         match self.words().iter().find(|word| word.name == asks) {

@@ -166,9 +166,6 @@ fn check_poisson_ratio(document: &Document, ratio: Option<f64>, case: &Value) ->
     Err(document.refuse("material.poisson_ratio", message).help("leave poisson_ratio out"))
 }
 
-/// Ends of the names of figures beside the one that is called like its case.
-const SUFFIXES: [&str; 4] = ["-velocity", "-full", "-linear", "-exact-area"];
-
 fn read_cases(
     document: &Document,
     study: &Header,
@@ -202,7 +199,7 @@ fn read_cases(
         cases.push(case);
     }
     for (index, case) in cases.iter().enumerate() {
-        let other = SUFFIXES.iter().find_map(|suffix| case.place.case.strip_suffix(suffix));
+        let other = study.kind.suffixes().iter().find_map(|suffix| case.place.case.strip_suffix(suffix));
         let other = other.filter(|other| ids.contains(*other));
         if let Some(other) = other {
             let message = format!("\"{}\" is the name of a figure of the case \"{other}\"", case.place.case);

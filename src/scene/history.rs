@@ -74,6 +74,12 @@ pub struct HistoryAsked {
 }
 
 impl HistoryAsked {
+    /// What is there from t = 0 on.
+    pub fn step() -> Self {
+        let shape = HistoryShape::Step;
+        Self { shape, start_s: None, rise_s: None, period_s: None, times_s: None, values: None }
+    }
+
     pub fn check(&self) -> Result<History, Wrong> {
         let has = [
             ("start_s", self.start_s.is_some(), self.shape != HistoryShape::Table),

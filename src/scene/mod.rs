@@ -81,6 +81,36 @@ pub struct Scene<const D: usize> {
 }
 
 impl<const D: usize> Scene<D> {
+    /// A body at rest with free edges, of section 1: nothing acts on it, nothing is seen. What a scene calls for is added
+    /// to it: `Scene { edges, ..Scene::bare(…) }`.
+    pub fn bare(
+        material: Material,
+        body: Body,
+        lattice: Lattice,
+        nodes: [usize; D],
+        spacing: f64,
+        time: Time,
+    ) -> Self {
+        Self {
+            name: format!("{lattice}, Δx = {spacing} m"),
+            material,
+            body,
+            lattice,
+            nodes,
+            spacing,
+            section: 1.0,
+            rotations: Rotations::Small,
+            operator: Operator::Stencil,
+            edges: Edges::default(),
+            surface: Correction::None,
+            displacement: Vec::new(),
+            velocity: Vec::new(),
+            effects: Vec::new(),
+            time,
+            probes: Vec::new(),
+        }
+    }
+
     /// Size of the body in m.
     pub fn size(&self) -> [f64; D] {
         self.nodes.map(|nodes| nodes as f64 * self.spacing)

@@ -5,6 +5,7 @@
 //! lattice. A lattice of the wrong long-wave speed tends to the error of a square wave of that speed.
 
 use super::jump;
+use super::levels::{order_of, pairwise, refining};
 use super::names::{LATTICE, lattice_cells, names, slug};
 use super::released::{BarAsked, LINE, Released, STRAIN, marching, planned, whole_bar};
 use crate::dispersion::sweep::LatticeSweep;
@@ -12,7 +13,7 @@ use crate::question::{Answer, Claiming, Place, Planned, Question, claim, error_o
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
-use pd_verify::compare::{largest, order};
+use pd_verify::compare::largest;
 use pd_verify::lattice::{Lattice, Stencil};
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
@@ -72,15 +73,7 @@ impl Asked for JumpConvergenceAsked {
 
     fn check(&self, written: &Written<'_>) -> Result<JumpConvergence, Wrong> {
         let bar = self.bar.check(written.material)?;
-        let spacings: Vec<f64> = self.dx_m.iter().map(|dx| dx.0).collect();
-        if spacings.len() < 3 || spacings.windows(2).any(|pair| pair[0] <= pair[1]) {
-            let help = "for example dx_m = [5e-3, 2.5e-3, 1.25e-3]";
-            return Err(Wrong::new(
-                "dx_m",
-                "an order needs three spacings or more, each finer than the last",
-                help,
-            ));
-        }
+        let spacings = refining("dx_m", &self.dx_m, |coarse, fine| coarse > fine)?;
         let marching = marching(self.duration_s, None, self.safety)?;
         let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;
         let place = self.probe_m.0;
@@ -213,16 +206,7 @@ impl JumpConvergence {
     fn tail(&self, sequence: &Sequence, levels: &[Level]) -> (String, Evidence) {
         let points: Vec<(f64, f64)> = levels.iter().map(|level| (level.spacing, level.l1)).collect();
         if sequence.right_speed() {
-            let order = order::fitted(&points);
-            let error = order.map(|order| (order.value - 0.5).abs());
-            let evidence = Evidence {
-                computed: order.map(|o| o.value),
-                reference: Some(0.5),
-                error,
-                order,
-                ..Evidence::default()
-            };
-            return (format!("order_{}", sequence.slug()), evidence);
+            return (format!("order_{}", sequence.slug()), order_of(&sequence.name, &points, 0.5, 0.0));
         }
         let [.., coarse, fine] = points[..] else {
             return (format!("plateau_{}", sequence.slug()), Evidence::default());
@@ -259,10 +243,9 @@ impl JumpConvergence {
         let mut table = Table::new("bar_jump_convergence.csv", &[&["case"][..], &LATTICE, &own].concat());
         for (sequence, levels) in self.sequences.iter().zip(levels) {
             let plateau = (!sequence.right_speed()).then(|| self.plateau(sequence));
+            let points: Vec<(f64, f64)> = levels.iter().map(|level| (level.spacing, level.l1)).collect();
             for (index, level) in levels.iter().enumerate() {
-                let pairwise = index.checked_sub(1).and_then(|coarse| {
-                    order::pairwise((levels[coarse].spacing, levels[coarse].l1), (level.spacing, level.l1))
-                });
+                let pairwise = pairwise(&points, index);
                 let start: Vec<Cell> = vec![place.case.clone().into()];
                 let own: [Cell; 3] = [level.l1.into(), pairwise.into(), plateau.into()];
                 let cells = lattice_cells(Some((sequence.lattice, level.spacing)));

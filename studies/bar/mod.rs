@@ -49,3 +49,6 @@ pub const TABLES: &[&str] = &[
     "bar_static_strain",
     "verdicts",
 ];
+
+/// Ends of the names of figures beside the one that is called like its case.
+pub const SUFFIXES: &[&str] = &["-error", "-shape", "-time-step", "-horizon", "-strain"];

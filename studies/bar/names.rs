@@ -1,5 +1,6 @@
 //! Names of lattices that stand beside each other: what distinguishes them.
 
+use crate::dispersion::m_convergence;
 use pd_verify::lattice::Lattice;
 use pd_verify::table::Cell;
 
@@ -39,7 +40,7 @@ pub fn lattice_cells(lattice: Option<(Lattice, f64)>) -> Vec<Cell> {
 
 /// A lattice in the name of a claim.
 pub fn slug(lattice: Lattice) -> String {
-    let kernel = lattice.kernel.to_string().replace(" p = ", "_").replace('.', "_");
+    let kernel = m_convergence::slug(lattice.kernel);
     let calibrated = if lattice.calibrated { "_calibrated" } else { "" };
     let m = format!("m{}", lattice.m).replace('.', "_");
     format!("{kernel}_{m}_{}{calibrated}", lattice.volume_rule.name())

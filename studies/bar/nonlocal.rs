@@ -4,6 +4,7 @@ use super::levels::{self, Sequence, refining, relative};
 use super::pulsed::{Marched, PlainBarAsked, PulseShapeAsked, Pulsed, material};
 use super::ring::Ring;
 use crate::dispersion::curve::{reference_kernel, reference_lattice};
+use crate::dispersion::m_convergence;
 use crate::dispersion::sweep::{check_usable, kernels};
 use crate::dispersion::words::{KernelName, VolumeRuleName};
 use crate::input::OneOrMany;
@@ -106,7 +107,7 @@ impl Asked for NonlocalPulseAsked {
                         kernel,
                         rule,
                         calibrated,
-                        expected: expected(kernel, rule),
+                        expected: m_convergence::expected(kernel, rule),
                         levels: m.iter().map(level).collect::<Result<_, _>>()?,
                     });
                 }
@@ -118,13 +119,12 @@ impl Asked for NonlocalPulseAsked {
 }
 
 fn slug(kernel: Kernel, rule: VolumeRule, calibrated: bool) -> String {
-    let kernel = kernel.to_string().replace(" p = ", "_").replace('.', "_");
-    format!("{kernel}_{}_{}", rule.name(), if calibrated { "calibrated" } else { "printed" })
-}
-
-/// The order by Euler–Maclaurin; a kernel that vanishes at δ makes a trapezoidal rule of either volume rule.
-fn expected(kernel: Kernel, rule: VolumeRule) -> f64 {
-    if rule == VolumeRule::Full && kernel.weight(1.0) > 0.0 { 1.0 } else { 2.0 }
+    format!(
+        "{}_{}_{}",
+        m_convergence::slug(kernel),
+        rule.name(),
+        if calibrated { "calibrated" } else { "printed" }
+    )
 }
 
 impl Question for Nonlocal {

@@ -4,11 +4,10 @@ use super::released::{LINE, cells, whole_bar};
 use crate::subject::Subject;
 use crate::written::Written;
 use pd_verify::constraints::{Edge, Edges};
-use pd_verify::forces::surface::Correction;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
-use pd_verify::scene::{Initial, Operator, Positive, Rotations, Scene, Shape, StepRule, Time, Wrong};
+use pd_verify::scene::{Initial, Positive, Scene, Shape, StepRule, Time, Wrong};
 use pd_verify_reference::pulse_bar::PulseBar;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -83,7 +82,7 @@ impl Pulsed {
         Ok(Self { exact, material, section: bar.section_m2.0, edges })
     }
 
-    /// The scene, marched in `steps` steps with a look at the whole bar every so many; the limit where none are given.
+    /// The scene without its look at the bar, which needs the number of steps.
     fn scene(
         &self,
         lattice: Lattice,
@@ -92,23 +91,12 @@ impl Pulsed {
         step: StepRule,
     ) -> Result<Scene<1>, Wrong> {
         let shape = Shape::Gaussian { centre: [self.exact.centre], sharpness: self.exact.sharpness };
+        let nodes = [cells(self.exact.length, spacing)?];
         Ok(Scene {
-            name: format!("{lattice}, Δx = {spacing} m"),
-            material: self.material,
-            body: Body::Bar,
-            lattice,
-            nodes: [cells(self.exact.length, spacing)?],
-            spacing,
             section: self.section,
-            rotations: Rotations::Small,
-            operator: Operator::Stencil,
             edges: Edges([self.edges]),
-            surface: Correction::None,
             displacement: vec![Initial { component: 0, amplitude: HEIGHT, shape }],
-            velocity: Vec::new(),
-            effects: Vec::new(),
-            time: Time { duration, step },
-            probes: Vec::new(),
+            ..Scene::bare(self.material, Body::Bar, lattice, nodes, spacing, Time { duration, step })
         })
     }
 

@@ -3,11 +3,10 @@
 use crate::dispersion::curve::reference_lattice;
 use crate::scene;
 use pd_verify::constraints::{Edge, Edges};
-use pd_verify::forces::surface::Correction;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
-use pd_verify::scene::{Initial, Operator, Positive, Probe, Rotations, Scene, Shape, Time, Watch, Wrong};
+use pd_verify::scene::{Initial, Positive, Probe, Scene, Shape, Time, Watch, Wrong};
 use pd_verify_reference::lattice_modes::LatticeModes;
 use pd_verify_reference::released_bar::ReleasedBar;
 use schemars::JsonSchema;
@@ -69,23 +68,13 @@ impl Released {
     ) -> Result<Scene<1>, Wrong> {
         let stretched =
             Initial { component: 0, amplitude: self.exact.strain, shape: Shape::Linear { along: 0 } };
+        let nodes = [cells(self.exact.length, spacing)?];
         Ok(Scene {
-            name: format!("{lattice}, Δx = {spacing} m"),
-            material: self.material,
-            body: Body::Bar,
-            lattice,
-            nodes: [cells(self.exact.length, spacing)?],
-            spacing,
             section: self.section,
-            rotations: Rotations::Small,
-            operator: Operator::Stencil,
             edges: Edges([[Edge::MirrorOdd, Edge::MirrorEven]]),
-            surface: Correction::None,
             displacement: vec![stretched],
-            velocity: Vec::new(),
-            effects: Vec::new(),
-            time,
             probes,
+            ..Scene::bare(self.material, Body::Bar, lattice, nodes, spacing, time)
         })
     }
 

@@ -9,8 +9,7 @@ use pd_verify::forces::{BodyForce, Traction};
 use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
 use pd_verify::scene::{
-    Axis, Effect, HistoryAsked, Initial, Operator, Positive, Region, Rotations, Scene, Shape, Side, StepRule,
-    Time, Wrong,
+    Axis, Effect, HistoryAsked, Initial, Positive, Region, Scene, Shape, Side, StepRule, Time, Wrong,
 };
 use pd_verify_reference::static_bar::{Correction as ReferenceCorrection, LeftEnd, StaticBar};
 use std::sync::Arc;
@@ -74,27 +73,18 @@ impl Pulled {
                 return Err(Wrong::new("dx_m", message, "take a smaller spacing or a smaller m"));
             }
         };
+        // Below half of the limit of any lattice with positive weights, corrected or not.
+        let duration = 0.4 * spacing / self.material.dilatational_speed(Body::Bar);
+        let time = Time { duration, step: StepRule::OfLimit(0.8) };
         Ok(Scene {
             name: format!("{lattice}, Δx = {spacing} m, surface {}", correction.name()),
-            material: self.material,
-            body: Body::Bar,
-            lattice,
-            nodes: [nodes],
-            spacing,
             section: self.section,
-            rotations: Rotations::Small,
-            operator: Operator::Stencil,
             edges: Edges([[left, Edge::Free]]),
             surface: correction,
             displacement: if ends == Ends::LetGo { vec![stretched] } else { Vec::new() },
-            velocity: Vec::new(),
             effects,
-            // Below half of the limit of any lattice with positive weights, corrected or not.
-            time: Time {
-                duration: 0.4 * spacing / self.material.dilatational_speed(Body::Bar),
-                step: StepRule::OfLimit(0.8),
-            },
             probes: vec![whole_bar(1)],
+            ..Scene::bare(self.material, Body::Bar, lattice, [nodes], spacing, time)
         })
     }
 
@@ -103,12 +93,17 @@ impl Pulled {
         let ends = [(Side::Left, -self.stress), (Side::Right, self.stress)];
         let load = |(edge, stress_pa): (Side, f64)| -> Arc<dyn Effect<1>> {
             if self.layer == 1 {
-                return Arc::new(Traction { edge, axis: Axis::X, stress_pa, history: always() });
+                return Arc::new(Traction { edge, axis: Axis::X, stress_pa, history: HistoryAsked::step() });
             }
             let depth = self.layer as f64 * spacing;
             let region = Region { edge: Some(edge), depth_m: Some(Positive(depth)), ..Region::default() };
             let density_n_m3 = stress_pa / depth;
-            Arc::new(BodyForce { axis: Axis::X, density_n_m3, region: Some(region), history: always() })
+            Arc::new(BodyForce {
+                axis: Axis::X,
+                density_n_m3,
+                region: Some(region),
+                history: HistoryAsked::step(),
+            })
         };
         ends.map(load).to_vec()
     }
@@ -119,7 +114,12 @@ impl Pulled {
             let at = |cells: f64| Some(vec![(node as f64 + cells) * spacing]);
             let region = Region { from_m: at(0.25), to_m: at(0.75), ..Region::default() };
             let displacement_m = self.strain() * (node as f64 + 0.5) * spacing;
-            Arc::new(PrescribedMotion { region, axis: Axis::X, displacement_m, history: always() })
+            Arc::new(PrescribedMotion {
+                region,
+                axis: Axis::X,
+                displacement_m,
+                history: HistoryAsked::step(),
+            })
         };
         nodes.map(drive).collect()
     }
@@ -134,11 +134,6 @@ impl Pulled {
         let lattice = reference_lattice(lattice);
         StaticBar { lattice, nodes, left: LeftEnd::Free, correction, layer: self.layer }
     }
-}
-
-/// A load that does not change.
-fn always() -> HistoryAsked {
-    serde_json::from_str(r#"{ "shape": "step" }"#).expect("a step needs no more")
 }
 
 /// E_app/E from displacements over σΔx/E: σL/E over the distance by which the ends move apart, each end extrapolated from

@@ -1,5 +1,6 @@
 //! `asks = "time_order"`: the march against the lattice's own modes, in exact time and as leapfrog carries them, over Δt.
 
+use super::levels::{order_of, pairwise, refining};
 use super::names::{LATTICE, lattice_cells, names, slug};
 use super::released::{BarAsked, LINE, Released, planned, whole_bar};
 use crate::dispersion::sweep::LatticeSweep;
@@ -7,7 +8,7 @@ use crate::question::{Answer, Claiming, Place, Planned, Question, claim, error_o
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
-use pd_verify::compare::{largest, order};
+use pd_verify::compare::largest;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
@@ -57,20 +58,12 @@ impl Asked for TimeOrderAsked {
 
     fn check(&self, written: &Written<'_>) -> Result<TimeOrder, Wrong> {
         let bar = self.bar.check(written.material)?;
-        let steps = &self.time_step_s;
-        if steps.len() < 3 || steps.windows(2).any(|pair| pair[0].0 <= pair[1].0) {
-            let help = "for example time_step_ns = [10, 5, 2.5]";
-            return Err(Wrong::new(
-                "time_step_s",
-                "an order needs three steps or more, each shorter than the last",
-                help,
-            ));
-        }
+        let steps = refining("time_step_s", &self.time_step_s, |coarse, fine| coarse > fine)?;
         let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;
         let mut sequences = Vec::new();
         for (&lattice, name) in lattices.iter().zip(names(&lattices)) {
-            let scene = |step: &Positive| {
-                let step = StepRule::Given { seconds: step.0, beyond_limit: false };
+            let scene = |&seconds: &f64| {
+                let step = StepRule::Given { seconds, beyond_limit: false };
                 let marching = Time { duration: self.duration_s.0, step };
                 let scene = bar.scene(lattice, self.dx_m.0, marching, Vec::new())?;
                 planned(scene, |steps| vec![whole_bar((steps / 20).max(1))])
@@ -130,20 +123,11 @@ impl Question for TimeOrder {
         for (sequence, levels) in self.sequences.iter().zip(&levels) {
             let points: Vec<(f64, f64)> =
                 levels.iter().map(|level| (level.time_step, level.exact_time)).collect();
-            let order = order::fitted(&points);
+            let order = order_of(&sequence.name, &points, 2.0, 0.0);
             let coarsest =
-                points.first().map_or(String::new(), |point| format!("{:.2e} at {:e} s", point.1, point.0));
-            evidence.push((
-                format!("order_{}", slug(sequence.lattice)),
-                Evidence {
-                    computed: order.map(|order| order.value),
-                    reference: Some(2.0),
-                    error: order.map(|order| (order.value - 2.0).abs()),
-                    order,
-                    note: coarsest,
-                    ..Evidence::default()
-                },
-            ));
+                points.first().map_or(String::new(), |point| format!(", {:.2e} at {:e} s", point.1, point.0));
+            let note = order.note.clone() + &coarsest;
+            evidence.push((format!("order_{}", slug(sequence.lattice)), Evidence { note, ..order }));
         }
         Answer {
             evidence,
@@ -184,14 +168,10 @@ impl TimeOrder {
         ];
         let mut table = Table::new("bar_time_order.csv", &[&["case"][..], &LATTICE, &own].concat());
         for (sequence, levels) in self.sequences.iter().zip(levels) {
+            let points: Vec<(f64, f64)> =
+                levels.iter().map(|level| (level.time_step, level.exact_time)).collect();
             for (index, level) in levels.iter().enumerate() {
-                let before = index.checked_sub(1).map(|before| &levels[before]);
-                let pairwise = before.and_then(|before| {
-                    order::pairwise(
-                        (before.time_step, before.exact_time),
-                        (level.time_step, level.exact_time),
-                    )
-                });
+                let pairwise = pairwise(&points, index);
                 let own: [Cell; 4] =
                     [level.time_step.into(), level.leapfrog.into(), level.exact_time.into(), pairwise.into()];
                 let start: Vec<Cell> = vec![place.case.clone().into()];

@@ -148,7 +148,7 @@ fn check_work(groups: &[Group], options: &RunOptions) -> Result<(), Refusal> {
                 study.id
             );
             return Err(Refusal::new(message)
-                .help("see `pd-verify plan`; fewer wavenumbers, smaller m, shorter lists"));
+                .help("see `pd-verify plan`; fewer wavenumbers, nodes or steps, smaller m, shorter lists"));
         }
     }
     Ok(())

@@ -114,11 +114,12 @@ fn end_slope(kernel: Kernel) -> f64 {
 }
 
 /// The order by Euler–Maclaurin; a kernel that vanishes at δ makes a trapezoidal rule of either volume rule.
-fn expected(kernel: Kernel, rule: VolumeRule) -> f64 {
+pub fn expected(kernel: Kernel, rule: VolumeRule) -> f64 {
     if rule == VolumeRule::Full && kernel.weight(1.0) > 0.0 { 1.0 } else { 2.0 }
 }
 
-fn slug(kernel: Kernel) -> String {
+/// A kernel in the name of a claim.
+pub fn slug(kernel: Kernel) -> String {
     kernel.to_string().replace(" p = ", "_").replace('.', "_")
 }
 

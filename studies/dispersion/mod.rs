@@ -64,3 +64,6 @@ pub const TABLES: &[&str] = &[
     "worst_phase_error",
     "verdicts",
 ];
+
+/// Ends of the names of figures beside the one that is called like its case.
+pub const SUFFIXES: &[&str] = &["-velocity", "-full", "-linear", "-exact-area"];
