@@ -2,8 +2,8 @@
 //!
 //! Leapfrog of a linear body keeps exactly, but for rounding, H = ½ρV Σ v(n+½)² + ½ u(n)ᵀK u(n+1), and a force f from
 //! outside changes it by exactly f(n)·(u(n+1) − u(n−1))/2. So H less the work is constant to rounding whatever the load,
-//! the damping and the driven nodes do: a check of the whole step. With finite rotations the elastic energy is the mean
-//! of E(n) and E(n+1) and the balance holds to second order in Δt.
+//! the damping and the driven nodes do: a check of the whole step. With finite rotations ½ u(n)ᵀK u(n+1) becomes
+//! ½(E(n) + E(n+1)) + ¼ d·(F(n+1) − F(n)), the same for a linear body, and the balance holds as far as a step is linear.
 
 use crate::forces::{Class, Now};
 use crate::model::{Inertia, Model};
@@ -39,6 +39,8 @@ pub struct Ledger<const D: usize> {
     before: Vec<f64>,
     /// E(n), where ½uᵀKu is not the energy.
     energy: Option<f64>,
+    /// Forces of class internal at n + 1, where they are needed for the energy.
+    next: Vec<f64>,
 }
 
 impl<const D: usize> Ledger<D> {
@@ -50,6 +52,7 @@ impl<const D: usize> Ledger<D> {
             loaded: field(),
             before: field(),
             energy: None,
+            next: if model.linear { Vec::new() } else { field() },
         }
     }
 
@@ -115,7 +118,11 @@ impl<const D: usize> Ledger<D> {
         }
         if let Some(energy) = self.energy {
             let now = Now { displacement, increment, time: f64::NAN, time_step };
-            self.balance.elastic = 0.5 * (energy + model.energy(&now));
+            self.next.fill(0.0);
+            model.add_forces(model.of_class(Class::Internal), &now, &mut self.next);
+            let stiff = increment.iter().zip(self.next.iter().zip(&self.internal));
+            let bend: f64 = stiff.map(|(d, (next, force))| d * (next - force)).sum();
+            self.balance.elastic = 0.5 * (energy + model.energy(&now)) + 0.25 * volume * bend;
         }
         self.before = before;
     }

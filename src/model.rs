@@ -52,11 +52,11 @@ impl<const D: usize> Model<D> {
             edges: scene.edges,
             forces: bonds,
             constraints: Vec::new(),
-            linear: scene.rotations == Rotations::Small,
+            linear: scene.linear(),
             grid,
         };
         for (index, effect) in scene.effects.iter().enumerate() {
-            let setting = Setting { grid: &model.grid, density: scene.material.density };
+            let setting = Setting::of(scene, &model.grid);
             match effect.act(&setting).map_err(|wrong| wrong.inside(&format!("effect[{index}]")))? {
                 Acts::Force(force) => model.add(force),
                 Acts::Constraint(constraint) => model.constraints.push(constraint),
@@ -66,7 +66,11 @@ impl<const D: usize> Model<D> {
     }
 
     /// Adds a term, after those of its class.
+    ///
+    /// # Panics
+    /// When it looks beyond the halo.
     pub fn add(&mut self, force: Box<dyn Force<D>>) {
+        assert!(force.reach() <= self.grid.halo, "{} looks beyond the halo", force.name());
         let at = self.forces.partition_point(|other| other.class() <= force.class());
         self.forces.insert(at, force);
     }

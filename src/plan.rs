@@ -3,12 +3,13 @@
 use crate::constraints::Edge;
 use crate::dispersion::timestep;
 use crate::forces::surface::Correction;
-use crate::forces::{BondList, Finite, LatticeStencil, Law, Small, family};
+use crate::forces::{BondList, Class, Finite, LatticeStencil, Law, Small, family};
 use crate::grid::Grid;
 use crate::lattice::{Stencil, Unusable};
 use crate::model::surface_factors;
 use crate::scene::{Acts, Operator, Rotations, Scene, Setting, StepRule, Watch, Wrong};
 use serde::Serialize;
+use std::collections::HashSet;
 
 /// What will be done.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -34,6 +35,9 @@ pub struct Plan {
 /// A block larger than this is a slip of the pen.
 const MAX_NODES: usize = 1 << 28;
 
+/// A march of more steps takes weeks on the smallest body.
+const MAX_STEPS: u64 = 1_000_000_000_000;
+
 /// From here on the search for the sharp limit in the plane takes minutes, and the row-sum bound stands in for it.
 const LARGEST_SEARCHED_M: f64 = 20.0;
 
@@ -43,12 +47,14 @@ impl Plan {
         let stencil = check_body(scene)?;
         check_probes(scene)?;
         let grid = Grid::new(scene.nodes, scene.spacing, stencil.reach());
-        let setting = Setting { grid: &grid, density: scene.material.density };
+        let setting = Setting::of(scene, &grid);
         let mut bytes = state_bytes(scene, &grid);
+        let mut terms = Terms::default();
         for (index, effect) in scene.effects.iter().enumerate() {
-            let acts = effect.act(&setting).map_err(|wrong| wrong.inside(&format!("effect[{index}]")))?;
-            bytes += if let Acts::Force(force) = acts { force.bytes() } else { 0 };
+            let acts = effect.act(&setting).and_then(|acts| terms.join(acts));
+            acts.map_err(|wrong| wrong.inside(&format!("effect[{index}]")))?;
         }
+        bytes += terms.bytes;
         let ends = bond_ends(scene, &stencil);
         bytes += operator_bytes(scene, &grid, stencil.bonds.len(), ends);
         let band = band(scene, &stencil, &grid);
@@ -81,6 +87,42 @@ impl Plan {
     }
 }
 
+/// What the effects of a scene become, together.
+#[derive(Default)]
+struct Terms {
+    bytes: usize,
+    driven: HashSet<usize>,
+    rates: usize,
+}
+
+impl Terms {
+    /// Counts a term, refused where it contradicts another.
+    fn join<const D: usize>(&mut self, acts: Acts<D>) -> Result<(), Wrong> {
+        match acts {
+            Acts::Force(force) => {
+                self.bytes += force.bytes();
+                self.rates += usize::from(force.class() == Class::Rate);
+                if self.rates > 1 {
+                    let message = "two effects depend on the velocity; the step is solved for one of them";
+                    return Err(Wrong::new("", message, "leave one out, or add their rates"));
+                }
+            }
+            Acts::Constraint(constraint) => {
+                self.bytes += size_of_val(constraint.places());
+                if !constraint.places().iter().all(|&place| self.driven.insert(place)) {
+                    let message = "some of these nodes are driven along this axis by another motion too";
+                    return Err(Wrong::new(
+                        "region",
+                        message,
+                        "let the regions keep apart, or leave one motion out",
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
 fn operator<const D: usize>(scene: &Scene<D>, band: usize) -> String {
     let name = match scene.operator {
         Operator::Stencil => "stencil",
@@ -101,7 +143,7 @@ fn band<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>, grid: &Grid<D>) 
         None => Band { nodes: 0, largest_factor: 1.0 },
         Some(factors) => Band {
             nodes: grid.each().filter(|node| !factors.neutral(*node)).count(),
-            largest_factor: factors.largest(),
+            largest_factor: factors.largest(grid),
         },
     }
 }
@@ -259,6 +301,10 @@ fn time_step<const D: usize>(scene: &Scene<D>, limit: f64) -> Result<(f64, f64, 
         let message = format!("a duration of {duration} s leaves nothing to simulate");
         return Err(Wrong::new("duration_s", message, "give a positive number of seconds"));
     }
+    if !(limit.is_finite() && limit > 0.0) {
+        let message = format!("no time step is stable on this body: the limit is {limit} s");
+        return Err(Wrong::new("surface_correction", message, "take another correction, kernel or m"));
+    }
     match scene.time.step {
         StepRule::OfLimit(fraction) if !(fraction > 0.0 && fraction <= 1.0) => {
             let message = format!("{fraction} is no fraction of the limit that keeps leapfrog stable");
@@ -270,9 +316,9 @@ fn time_step<const D: usize>(scene: &Scene<D>, limit: f64) -> Result<(f64, f64, 
         }
         StepRule::Given { seconds, beyond_limit: false } if seconds > limit => {
             let message = format!(
-                "Δt = {seconds:e} s is above this lattice's limit of {limit:e} s: leapfrog would grow without bound"
+                "Δt = {seconds:e} s is above this lattice's limit of {limit:.4e} s: leapfrog would grow without bound"
             );
-            let help = "take a smaller step, or safety = 0.8, or say unstable = true to watch it happen";
+            let help = "take a smaller step, or safety = 0.8 in place of time_step_s";
             return Err(Wrong::new("time_step_s", message, help));
         }
         StepRule::Given { seconds, .. } if seconds > duration => {
@@ -282,5 +328,14 @@ fn time_step<const D: usize>(scene: &Scene<D>, limit: f64) -> Result<(f64, f64, 
         _ => {}
     }
     let (seconds, steps) = scene.time.step.steps(duration, limit);
+    if steps > MAX_STEPS {
+        let message =
+            format!("{steps:e} steps of {seconds:.4e} s are asked for, at most {MAX_STEPS:e} are marched");
+        return Err(Wrong::new(
+            "duration_s",
+            message,
+            "take a shorter duration, or a larger time step or spacing",
+        ));
+    }
     Ok((seconds, seconds / limit, steps))
 }

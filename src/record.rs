@@ -1,5 +1,6 @@
 //! A run from a scene to what its probes saw: plan, model, march to the next look, look.
 
+use crate::constraints::{Edge, Edges};
 use crate::grid::Grid;
 use crate::ledger::Ledger;
 use crate::march::March;
@@ -81,7 +82,7 @@ pub fn march<const D: usize>(scene: &Scene<D>, plan: Plan, model: &Model<D>) -> 
     loop {
         let step = march.step();
         for (probe, trace) in scene.probes.iter().zip(&mut traces) {
-            if step.is_multiple_of(probe.every) {
+            if step.is_multiple_of(probe.every) || step == plan.steps {
                 look(probe, &march, trace);
             }
         }
@@ -152,11 +153,11 @@ fn trace<const D: usize>(probe: &Probe<D>, grid: &Grid<D>) -> Trace {
 
 /// Looks at the body now; what belongs to half steps is seen where it is known.
 fn look<const D: usize>(probe: &Probe<D>, march: &March<'_, D>, trace: &mut Trace) {
-    let (grid, u) = (&march.model().grid, march.displacement());
+    let (grid, edges, u) = (&march.model().grid, &march.model().edges, march.displacement());
     let half = 0.5 * march.time_step();
     let (time, row) = match probe.watch {
-        Watch::Point { at } => (march.time(), point(grid, u, at).to_vec()),
-        Watch::Strain { at } => (march.time(), vec![strain(grid, u, at)]),
+        Watch::Point { at } => (march.time(), point(grid, edges, u, at).to_vec()),
+        Watch::Strain { at } => (march.time(), vec![strain(grid, edges, u, at)]),
         Watch::Line { along, through } => {
             let row = line(grid, along, through).flat_map(|node| displacement_of(grid, u, node)).collect();
             (march.time(), row)
@@ -189,16 +190,19 @@ fn line<const D: usize>(
     })
 }
 
-/// The two neighbours on an axis and the share of the second; beyond the outermost nodes the line goes on.
-fn around(t: f64, count: usize) -> (isize, f64) {
-    let lower = (t.floor() as isize).clamp(0, count.saturating_sub(2) as isize);
-    (lower, if count == 1 { 0.0 } else { t - lower as f64 })
+/// The two neighbours on an axis among nodes 0 … count − 1 and the share of the second. Beyond an edge with ghosts one
+/// more is known; beyond a free one the line goes on.
+fn around(t: f64, count: usize, [below, above]: [Edge; 2]) -> (isize, f64) {
+    let ghosts = |edge: Edge| isize::from(edge != Edge::Free);
+    let (first, last) = (-ghosts(below), count as isize - 1 + ghosts(above));
+    let lower = (t.floor() as isize).clamp(first, (last - 1).max(first));
+    (lower, if first == last { 0.0 } else { t - lower as f64 })
 }
 
 /// Displacement at a place, linear between nodes.
-fn point<const D: usize>(grid: &Grid<D>, u: &[f64], at: [f64; D]) -> [f64; D] {
+fn point<const D: usize>(grid: &Grid<D>, edges: &Edges<D>, u: &[f64], at: [f64; D]) -> [f64; D] {
     let near: [(isize, f64); D] =
-        std::array::from_fn(|axis| around(at[axis] / grid.spacing - 0.5, grid.nodes[axis]));
+        std::array::from_fn(|axis| around(at[axis] / grid.spacing - 0.5, grid.nodes[axis], edges.0[axis]));
     let mut total = [0.0; D];
     for corner in 0..1_usize << D {
         let upper = |axis: usize| corner >> axis & 1 == 1;
@@ -214,12 +218,12 @@ fn point<const D: usize>(grid: &Grid<D>, u: &[f64], at: [f64; D]) -> [f64; D] {
 }
 
 /// Strain of a bar at a place: on a cell face the difference quotient of its two nodes.
-fn strain<const D: usize>(grid: &Grid<D>, u: &[f64], at: f64) -> f64 {
+fn strain<const D: usize>(grid: &Grid<D>, edges: &Edges<D>, u: &[f64], at: f64) -> f64 {
     let faces = grid.nodes[0] - 1;
     let t = at / grid.spacing - 1.0;
     // A place meant to be a face must not miss it by rounding.
     let t = if (t - t.round()).abs() < 1e-9 { t.round() } else { t };
-    let (face, share) = around(t, faces);
+    let (face, share) = around(t, faces, edges.0[0]);
     let place = |n: isize| {
         let mut node = [0; D];
         node[0] = n;

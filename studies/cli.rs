@@ -44,15 +44,18 @@ pub enum Command {
     },
     /// What a study, case or claim says, against what, and why its bounds are what they are
     Explain {
-        /// Id of a study, of a case (study/case) or of a claim (study/case/claim)
+        /// Id of a study, of a case (study/case) or of a claim (study/case/claim), or a study file
         id: String,
         /// The publications it rests on, as BibTeX
         #[arg(long)]
         bibtex: bool,
+        /// The study file itself, to copy; of a case: a study of this case alone
+        #[arg(long, conflicts_with = "bibtex")]
+        toml: bool,
     },
     /// What a study will do and what it costs; runs nothing
     Plan {
-        /// Id of a shipped study, or a study file
+        /// Id of a shipped study or of one of its cases (study/case), or a study file
         study: String,
         /// Machine-readable
         #[arg(long)]

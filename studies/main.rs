@@ -14,6 +14,7 @@ mod manifest;
 mod output;
 mod progress;
 mod question;
+mod rounded;
 mod run;
 mod scene;
 mod schema;
@@ -55,7 +56,7 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
         }
         Command::Run { files, options } => judge::files(&files, &options).map(judge::End::code),
         Command::List { json } => print(&list::list(json)?),
-        Command::Explain { id, bibtex } => print(&explain::explain(&id, bibtex)?),
+        Command::Explain { id, bibtex, toml } => print(&explain::explain(&id, bibtex, toml)?),
         Command::Plan { study, json, profile, set } => print(&plan::plan(&study, json, profile, &set)?),
         Command::Schema => print(&format!("{:#}\n", schema::schema())),
         Command::Completions { shell } => {

@@ -1,11 +1,12 @@
 //! A study: a question with a file. Its header, its cases, and the checks that need no computation.
 
-use crate::input::{Document, Positive, Refusal, Setting};
+use crate::input::{Document, Refusal, Setting};
 use crate::kind::Kind;
 use crate::question::{Effort, Place, Profile, Question};
 use crate::written::{COMMON_KEYS, Written};
 use pd_verify::claim::Claim;
 use pd_verify::material::Material;
+use pd_verify::scene::Positive;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;

@@ -136,9 +136,10 @@ fn three_schemes_are_one() {
     let ramp = json!({ "shape": "ramp", "rise_s": 1.7e-5 });
     for operator in [Operator::Stencil, Operator::Bonds] {
         for edges in [[Free, Free], [MirrorOdd, Free], [Periodic, Periodic]] {
-            let pull = json!({ "edge": "right", "axis": "x", "stress_pa": 2e9, "history": sine });
+            let layer = json!({ "edge": "right" });
+            let pull = json!({ "region": layer, "axis": "x", "density_n_m3": 2e11, "history": sine });
             let push = json!({ "axis": "x", "density_n_m3": 3e10, "history": ramp });
-            let effects = vec![effect::<1, Traction>(pull), effect::<1, BodyForce>(push)];
+            let effects = vec![effect::<1, BodyForce>(pull), effect::<1, BodyForce>(push)];
             let bar = scene::<1>(constant(3.0, VolumeRule::Full, true), [37]);
             compare(&Scene { operator, effects, edges: Edges([edges]), ..bar });
         }

@@ -12,10 +12,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Edge {
+    /// Bonds beyond the edge are missing.
     #[default]
     Free,
+    /// The displacement normal to the edge is odd, 0 there, the tangential one even: a plane of symmetry, a roller.
     MirrorOdd,
+    /// The displacement normal to the edge is even, without strain across it, the tangential one odd.
     MirrorEven,
+    /// The body repeats; the opposite edge must be periodic too.
     Periodic,
 }
 

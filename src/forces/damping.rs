@@ -68,4 +68,8 @@ impl<const D: usize> Force<D> for Damper {
             }
         }
     }
+
+    fn bytes(&self) -> usize {
+        self.runs.iter().map(|runs| size_of_val(runs.as_slice())).sum()
+    }
 }

@@ -3,6 +3,7 @@
 //! A body force fills a region with b in N/m³. A traction σ on an edge is b = σ/Δx on the one layer of cells there.
 
 use super::{Class, Force, Now};
+use crate::constraints::Edge;
 use crate::grid::Grid;
 use crate::scene::{Acts, Axis, Effect, History, HistoryAsked, Region, Setting, Side, Wrong};
 use schemars::JsonSchema;
@@ -27,7 +28,7 @@ pub struct Traction {
     pub edge: Side,
     /// Direction in which it pulls.
     pub axis: Axis,
-    /// In Pa.
+    /// In Pa. A positive value pulls towards +axis on every edge: to stretch a bar give the left end a negative one.
     pub stress_pa: f64,
     pub history: HistoryAsked,
 }
@@ -56,6 +57,12 @@ impl<const D: usize> Effect<D> for Traction {
     fn act(&self, setting: &Setting<'_, D>) -> Result<Acts<D>, Wrong> {
         finite("stress_pa", self.stress_pa)?;
         let history = self.history.check().map_err(|wrong| wrong.inside("history"))?;
+        let (axis, upper) = self.edge.end::<D>()?;
+        let beyond = setting.edges.0[axis][usize::from(upper)];
+        if matches!(beyond, Edge::MirrorOdd | Edge::Periodic) {
+            let message = format!("the edge is {}: no surface there can carry a traction", beyond.name());
+            return Err(Wrong::new("edge", message, "pull at a free edge, or use a body force"));
+        }
         let holds = self.edge.holds(setting.grid, 1)?;
         let nodes: Vec<_> = setting.grid.each().filter(|node| holds(*node)).collect();
         let density = self.stress_pa / setting.grid.spacing;
@@ -110,7 +117,7 @@ impl<const D: usize> Force<D> for Load {
     }
 
     fn add(&self, now: &Now<'_>, piece: usize, sum: &mut [f64]) {
-        let density = self.density * self.history.at(now.time);
+        let density = self.density * self.history.over_step(now.time, now.time_step);
         for &place in &self.places[piece] {
             sum[place] += density;
         }

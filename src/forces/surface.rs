@@ -113,9 +113,14 @@ impl<const D: usize> Factors<D> {
         })
     }
 
-    /// The largest factor: the frequencies of a body of positive weights grow by at most its root.
-    pub fn largest(&self) -> f64 {
-        self.of_node.iter().flatten().fold(1.0, |largest, factor| factor.max(largest))
+    /// The largest factor of a bond that exists: the frequencies of a body of positive weights grow by at most its root.
+    pub fn largest(&self, grid: &Grid<D>) -> f64 {
+        let exists = |node, bond: usize| self.edges.present(self.nodes, node, self.offsets[bond]);
+        let of = |node| {
+            let bonds = (0..self.offsets.len()).filter(move |&bond| exists(node, bond));
+            bonds.map(|bond| self.of(node, bond)).fold(1.0, f64::max)
+        };
+        grid.each().map(of).fold(1.0, f64::max)
     }
 
     fn at(&self, node: [isize; D]) -> [f64; D] {

@@ -1,7 +1,7 @@
 //! What a scene may call for beside its bonds: each effect is asked for in words and becomes a term of the model.
 
-use super::Wrong;
-use crate::constraints::Constraint;
+use super::{Scene, Wrong};
+use crate::constraints::{Constraint, Edges};
 use crate::forces::Force;
 use crate::grid::Grid;
 use std::fmt;
@@ -10,8 +10,17 @@ use std::fmt;
 #[derive(Debug, Clone, Copy)]
 pub struct Setting<'a, const D: usize> {
     pub grid: &'a Grid<D>,
+    /// What lies beyond each edge.
+    pub edges: &'a Edges<D>,
     /// ρ in kg/m³.
     pub density: f64,
+}
+
+impl<'a, const D: usize> Setting<'a, D> {
+    /// The body of a scene.
+    pub fn of(scene: &'a Scene<D>, grid: &'a Grid<D>) -> Self {
+        Self { grid, edges: &scene.edges, density: scene.material.density }
+    }
 }
 
 /// What an effect becomes.

@@ -35,6 +35,19 @@ impl History {
     }
 }
 
+impl History {
+    /// The factor that acts over the step of length Δt around t: a jump that falls into it acts for its part. What is
+    /// there from t = 0 on is there in whole, as the march starts with half a step.
+    pub fn over_step(&self, t: f64, time_step: f64) -> f64 {
+        match *self {
+            Self::Step { start } if start > 0.0 && time_step > 0.0 => {
+                ((t - start) / time_step + 0.5).clamp(0.0, 1.0)
+            }
+            _ => self.at(t),
+        }
+    }
+}
+
 fn between(points: &[(f64, f64)], t: f64) -> f64 {
     let after = points.partition_point(|&(time, _)| time <= t);
     match (after.checked_sub(1).map(|n| points[n]), points.get(after)) {
@@ -152,6 +165,15 @@ mod tests {
             [-1.0, 0.0, 1.0, 2.0, 2.5, 3.0, 8.0].map(|t| table.at(t)),
             [1.0, 1.0, 2.0, 3.0, 1.5, 0.0, 0.0]
         );
+    }
+
+    #[test]
+    fn a_step_within_a_step_acts_for_its_part() {
+        let step = History::Step { start: 3.0 };
+        assert_eq!([1.0, 2.0, 3.0, 4.0].map(|t| step.over_step(t, 1.0)), [0.0, 0.0, 0.5, 1.0]);
+        assert_eq!(History::Step { start: 2.75 }.over_step(3.0, 1.0), 0.75);
+        assert_eq!(History::Step { start: 0.0 }.over_step(0.0, 1.0), 1.0);
+        assert_eq!(step.over_step(3.0, f64::NAN), 1.0);
     }
 
     #[test]

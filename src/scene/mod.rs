@@ -111,6 +111,11 @@ impl<const D: usize> Scene<D> {
         }
     }
 
+    /// Whether its bonds pull in proportion to the displacement.
+    pub fn linear(&self) -> bool {
+        self.rotations == Rotations::Small
+    }
+
     /// Size of the body in m.
     pub fn size(&self) -> [f64; D] {
         self.nodes.map(|nodes| nodes as f64 * self.spacing)

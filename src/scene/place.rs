@@ -88,6 +88,16 @@ impl Region {
                     let message = format!("{depth} m is thinner than a cell of {} m", grid.spacing);
                     return Err(Wrong::new("depth_m", message, "take whole cells, at least one"));
                 }
+                let (axis, _) = side.end::<D>()?;
+                if layers > grid.nodes[axis] {
+                    let size = grid.nodes[axis] as f64 * grid.spacing;
+                    let message = format!("a depth of {depth} m is larger than the body of {size} m");
+                    return Err(Wrong::new(
+                        "depth_m",
+                        message,
+                        "take a smaller depth, or leave out edge and depth_m",
+                    ));
+                }
                 let holds = side.holds(grid, layers)?;
                 grid.each().filter(|node| holds(*node)).collect()
             }
@@ -96,9 +106,11 @@ impl Region {
                     let message = format!("a corner has {D} number(s) here");
                     return Err(Wrong::new("from_m", message, "give one number per axis, also in to_m"));
                 }
+                // A corner meant to stand on a node must not miss it by rounding.
+                let slack = 1e-9 * grid.spacing;
                 let inside = |node: &[isize; D]| {
                     let at = grid.position(*node);
-                    (0..D).all(|axis| from[axis] <= at[axis] && at[axis] <= to[axis])
+                    (0..D).all(|axis| from[axis] - slack <= at[axis] && at[axis] <= to[axis] + slack)
                 };
                 grid.each().filter(inside).collect()
             }

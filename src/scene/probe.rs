@@ -6,14 +6,15 @@ pub struct Probe<const D: usize> {
     /// Unique in its scene.
     pub name: String,
     pub watch: Watch<D>,
-    /// Steps from one look to the next; the first is at t = 0.
+    /// Steps from one look to the next; the first is at t = 0, and the last step is looked at in any case.
     pub every: u64,
 }
 
 /// What a probe looks at.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Watch<const D: usize> {
-    /// Displacement at a place in m, linear between the nodes around it.
+    /// Displacement at a place in m, linear between the nodes around it, ghosts among them; less than half a cell from
+    /// a free edge the line through the two outermost nodes goes on.
     Point { at: [f64; D] },
     /// Strain of a bar at a place in m: the difference quotient of the two nodes beside it, linear between cell faces.
     Strain { at: f64 },

@@ -18,16 +18,16 @@ pub enum StepRule {
 }
 
 impl StepRule {
-    /// Δt in s and the number of steps that do not pass the duration, for a limit in s.
+    /// Δt in s and the number of steps that cover the duration, for a limit in s.
     pub fn steps(self, duration: f64, limit: f64) -> (f64, u64) {
         match self {
             Self::OfLimit(fraction) => {
                 let steps = (duration / (fraction * limit) - 1e-9).ceil().max(1.0);
                 (duration / steps, steps as u64)
             }
-            // A duration of whole steps must not lose the last one to rounding.
+            // A duration of whole steps must not gain one by rounding.
             Self::Given { seconds, .. } => {
-                (seconds, (duration / seconds * (1.0 + 1e-12) + 1e-9).floor() as u64)
+                (seconds, (duration / seconds * (1.0 - 1e-12) - 1e-9).ceil().max(1.0) as u64)
             }
         }
     }

@@ -131,7 +131,7 @@ impl Question for Release {
     }
 
     fn equations(&self) -> &'static str {
-        "ρü = E u'', u(0) = 0, u'(L) = 0, u(x, 0) = F₀x/(EA): ε(x, t) = ½[s(x − vt) + s(x + vt)] F₀/(EA), s = ±1 with period 4L
+        "ρü = E u'', u(0) = 0, u'(L) = 0, u(x, 0) = F₀x/(EA): ε(x, t) = ½[s(x − vt) + s(x + vt)] F₀/(EA), s = 1 for |x| < L, −1 up to 3L, of period 4L
 Fourier: ε = F₀/(EA) Σ (−1)ⁿ 4/(π(2n+1)) cos((2n+1)πx/2L) cos((2n+1)πvt/2L)
 lattice, u odd about the fixed end and even about the free one: modes sin((2n+1)πx/2L), leapfrog (2/Δt) asin(ωΔt/2)
 error: (1/T) ∫ |ε − ε_exact| dt / (F₀/EA)"

@@ -129,3 +129,8 @@ pub fn planned(mut scene: Scene<1>, look: impl Fn(u64) -> Vec<Probe<1>>) -> Resu
     let plan = Plan::of(&scene).map_err(place)?;
     Ok((scene, plan))
 }
+
+/// How many of a probe's looks are equally far apart: the last one may come sooner.
+pub fn evenly(plan: &Plan, probe: &Probe<1>) -> usize {
+    (plan.steps / probe.every) as usize + 1
+}

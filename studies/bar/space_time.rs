@@ -1,6 +1,6 @@
 //! `asks = "space_time"`: the strain of a released bar over place and time, and what it has beside the exact one.
 
-use super::released::{BarAsked, LINE, Released, marching, planned, whole_bar};
+use super::released::{BarAsked, LINE, Released, evenly, marching, planned, whole_bar};
 use crate::dispersion::sweep::LatticeSweep;
 use crate::question::{Answer, Claiming, Place, Planned, Question, claim, error_of};
 use crate::subject::Subject;
@@ -70,7 +70,7 @@ impl Question for SpaceTime {
     }
 
     fn equations(&self) -> &'static str {
-        "ε(x, t) = ½[s(x − vt) + s(x + vt)] F₀/(EA), s = ±1 with period 4L"
+        "ε(x, t) = ½[s(x − vt) + s(x + vt)] F₀/(EA), s = 1 for |x| < L, −1 up to 3L, of period 4L"
     }
 
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
@@ -116,10 +116,16 @@ impl SpaceTime {
         };
         let picture = |of: &dyn Fn(f64, &[f64], usize) -> f64| -> Vec<Vec<Option<f64>>> {
             let line = |(&t, row): (&f64, &Vec<f64>)| (0..cells).map(|cell| Some(of(t, row, cell))).collect();
-            bar.times.iter().zip(&bar.rows).map(line).collect()
+            bar.times
+                .iter()
+                .zip(&bar.rows)
+                .take(evenly(&self.plan, &self.scene.probes[0]))
+                .map(line)
+                .collect()
         };
         let axes = || {
-            let time = 1e3 * bar.times.last().copied().unwrap_or(0.0);
+            let rows = evenly(&self.plan, &self.scene.probes[0]);
+            let time = 1e3 * bar.times.get(rows - 1).copied().unwrap_or(0.0);
             (
                 Axis::linear("x (m)").range(0.0, self.bar.exact.length),
                 Axis::linear("time (ms)").range(0.0, time),

@@ -2,7 +2,7 @@
 //! the march, beside the dispersion curve; the error of each mode by wavenumber.
 
 use super::names::{names, slug};
-use super::released::{BarAsked, LINE, Released, STRAIN, planned, whole_bar};
+use super::released::{BarAsked, LINE, Released, STRAIN, evenly, planned, whole_bar};
 use super::spectrum_report;
 use crate::dispersion::curve::reference_lattice;
 use crate::dispersion::sweep::LatticeSweep;
@@ -158,7 +158,8 @@ impl Spectrum {
         let every = scene.probes[1].every;
         // An interval of so many steps turns the fastest mode by less than π only if it is one step.
         let apart = every as f64 * courant;
-        let amplitudes: Vec<Vec<f64>> = bar.rows.iter().map(|row| project(row)).collect();
+        let looks = evenly(plan, &scene.probes[1]);
+        let amplitudes: Vec<Vec<f64>> = bar.rows.iter().take(looks).map(|row| project(row)).collect();
         let mode = |n: usize| {
             let theta = (2 * n + 1) as f64 * PI / (2 * nodes) as f64;
             let wave = reference::lattice::bar(reference_lattice(scene.lattice), theta);

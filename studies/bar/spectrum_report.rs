@@ -37,8 +37,7 @@ pub fn table(spectrum: &Spectrum, heard: &[Heard], place: &Place) -> Table {
 
 /// Spectrum of the strain, error by wavenumber, dispersion, over the same axis.
 pub fn figure(spectrum: &Spectrum, heard: &[Heard], place: &Place) -> Figure {
-    let axis = || Axis::linear("k, or ω/v (1/m)");
-    let panel = |title: &str, y: Axis, series| Lines::new(axis(), y, series).titled(title);
+    let panel = |title: &str, x: &str, y: Axis, series| Lines::new(Axis::linear(x), y, series).titled(title);
     let caption = "Amplitudes in the strain's history, the root mean square error of each mode over the run, and the \
                    frequencies measured in the march on the dispersion curves.";
     Figure::new(
@@ -46,7 +45,8 @@ pub fn figure(spectrum: &Spectrum, heard: &[Heard], place: &Place) -> Figure {
         spectrum.title.clone(),
         caption,
         panel(
-            "Amplitudes of the strain's history",
+            "Amplitudes of the strain's history: nothing above the lattice's highest frequency",
+            "ω/v (1/m)",
             Axis::log("amplitude / (F₀/EA)"),
             sounds(spectrum, heard),
         ),
@@ -54,9 +54,9 @@ pub fn figure(spectrum: &Spectrum, heard: &[Heard], place: &Place) -> Figure {
     .panel(
         Lines::new(Axis::log("k (1/m)"), Axis::log("rms error / amplitude"), errors(spectrum, heard))
             .titled("Error of each mode over the run")
-            .guide(Guide::Slope { order: 3.0, label: "3".into() }),
+            .guide(Guide::Slope { order: 3.0, label: "order 3".into() }),
     )
-    .panel(panel("Speed of each mode", Axis::linear("ω / (vk)"), speeds(spectrum, heard)))
+    .panel(panel("Speed of each mode", "k (1/m)", Axis::linear("ω / (vk)"), speeds(spectrum, heard)))
 }
 
 /// Frequencies at which the history is looked at, and samples of it, about.

@@ -145,7 +145,7 @@ impl Question for Statics {
         let nodes = |spacing: f64| self.bar.length / spacing;
         let (coarsest, finest) = (nodes(self.spacings[0]), nodes(self.spacings[self.spacings.len() - 1]));
         let reach = self.lattices.iter().map(|bulk| bulk.lattice.m).fold(1.0, f64::max);
-        let conjugate = "conjugate gradients to 1e-14 lose 10 εκ, κ ≤ 8 (N/π)²: the largest eigenvalue is at most 4 Σ w, a corrected bond at most twice as stiff, Σ w ≤ Σ w r² = E, the smallest is E (π/N)²";
+        let conjugate = "conjugate gradients to 1e-14 lose 10 εκ, κ ≤ 8 (N/π)²: the largest eigenvalue is at most 4 Σ w, a corrected bond at most twice as stiff, Σ w ≤ Σ w r², the lattice's modulus, and the smallest is this modulus times (π/N)²";
         let mut claims = vec![
             claim(place, "still", "largest way in one step of nodes inside let go from u = εx, over εL")
                 .at_most(ErrorKind::MaxOfPeak, (2.0 * reach + 4.0) * f64::EPSILON)
@@ -178,7 +178,7 @@ impl Question for Statics {
             );
             claims.push(
                 claim(place, &format!("surface_order_{name}"), format!("order in δ at fixed m of the ends' softness E/E_app − 1, correction {name}, furthest lattice"))
-                    .order(1.0, 0.01)
+                    .order(1.0, 1e-6)
                     .because(Basis::Theory, "a boundary layer is the same in units of Δx at every level, so that L E/E_app = L + cδ exactly; what one end sees of the other, exp(−2L/δ), is below 1e-6 of it")
                     .source("scaling of the lattice's boundary layer"),
             );

@@ -12,7 +12,7 @@ use pd_verify::compare::largest;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
-use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Series};
+use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Marker, Series};
 use pd_verify::scene::{Positive, Scene, StepRule, Time, Wrong};
 use pd_verify::table::{Cell, Table};
 use pd_verify::verdict::Evidence;
@@ -192,10 +192,10 @@ impl TimeOrder {
                 Series::both(format!("{}, exact time", sequence.name), of(|l| l.exact_time)).slot(slot),
             );
             let label = format!("{}, as leapfrog carries the modes", sequence.name);
-            series.push(Series::markers(label, of(|l| l.leapfrog)).slot(slot));
+            series.push(Series::markers(label, of(|l| l.leapfrog)).slot(slot).marker(Marker::Cross));
         }
         let panel = Lines::new(Axis::log("Δt (ns)"), Axis::log("largest displacement error / peak"), series)
-            .guide(Guide::Slope { order: 2.0, label: "2".into() });
+            .guide(Guide::Slope { order: 2.0, label: "order 2".into() });
         let caption = "Largest error of the displacements of all nodes over the run, over the peak: second order against \
                        the modes in exact time, rounding against the modes that leapfrog carries.";
         Figure::new(place.case.clone(), self.title.clone(), caption, panel)

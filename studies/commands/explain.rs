@@ -1,43 +1,63 @@
 //! `pd-verify explain ID`: what a study, case or claim says, against what, and why its bounds are what they are.
 
+use super::find::{file, text_of};
 use crate::bibliography;
 use crate::input::{Refusal, nearest};
+use crate::rounded::rounded;
 use crate::shipped::shipped;
 use crate::study::{Case, Study};
 use pd_verify::claim::{Claim, Expectation, Relation};
 use std::fmt::Write;
+use std::path::Path;
 
-/// The explanation as text.
-pub fn explain(id: &str, bibtex: bool) -> Result<String, Refusal> {
-    let studies = shipped(None, &[])?;
-    let Some(text) = studies.iter().find_map(|study| explain_in(study, id)) else {
-        return Err(unknown(&studies, id));
+/// What an id names in a study: all of it, a case, or a claim of a case.
+enum Named {
+    Study,
+    Case(usize),
+    Claim(usize, Box<Claim>),
+}
+
+/// The explanation as text: in words, as the publications it rests on, or as the study file.
+pub fn explain(id: &str, bibtex: bool, toml: bool) -> Result<String, Refusal> {
+    let mut studies = shipped(None, &[])?;
+    let found = studies.iter().enumerate().find_map(|(index, study)| Some((index, named(study, id)?)));
+    let (study, what) = match found {
+        Some((index, what)) => (studies.swap_remove(index), what),
+        None if id.ends_with(".toml") || Path::new(id).is_file() => (file(id)?, Named::Study),
+        None => return Err(unknown(&studies, id)),
     };
+    if toml {
+        return Ok(match what {
+            Named::Study => text_of(&study, None),
+            Named::Case(index) | Named::Claim(index, _) => text_of(&study, Some(index)),
+        });
+    }
+    let text = in_words(&study, what);
     Ok(if bibtex { bibliography::cited_in(&text) } else { text })
 }
 
-fn explain_in(study: &Study, id: &str) -> Option<String> {
-    let mut text = String::new();
+fn named(study: &Study, id: &str) -> Option<Named> {
     if study.id == id {
-        head(&mut text, study);
-        study.cases.iter().for_each(|case| about_case(&mut text, case, &case.claims()));
-        return Some(text);
+        return Some(Named::Study);
     }
-    for case in &study.cases {
-        let name = format!("{}/{}", study.id, case.place.case);
-        let claims = case.claims();
-        if name == id {
-            head(&mut text, study);
-            about_case(&mut text, case, &claims);
-            return Some(text);
+    study.cases.iter().enumerate().find_map(|(index, case)| {
+        if format!("{}/{}", study.id, case.place.case) == id {
+            return Some(Named::Case(index));
         }
-        if let Some(claim) = claims.iter().find(|claim| claim.id == id) {
-            head(&mut text, study);
-            about_case(&mut text, case, std::slice::from_ref(claim));
-            return Some(text);
-        }
+        let claim = case.claims().into_iter().find(|claim| claim.id == id)?;
+        Some(Named::Claim(index, Box::new(claim)))
+    })
+}
+
+fn in_words(study: &Study, what: Named) -> String {
+    let mut text = String::new();
+    head(&mut text, study);
+    match what {
+        Named::Study => study.cases.iter().for_each(|case| about_case(&mut text, case, &case.claims())),
+        Named::Case(index) => about_case(&mut text, &study.cases[index], &study.cases[index].claims()),
+        Named::Claim(index, claim) => about_case(&mut text, &study.cases[index], &[*claim]),
     }
-    None
+    text
 }
 
 fn unknown(studies: &[Study], id: &str) -> Refusal {
@@ -59,14 +79,13 @@ fn unknown(studies: &[Study], id: &str) -> Refusal {
 }
 
 fn head(text: &mut String, study: &Study) {
-    let _ = writeln!(
-        text,
-        "{}: {}\n\n{}\n\nSource: {}\n",
-        study.id,
-        study.title,
-        study.about.trim(),
-        study.source
-    );
+    let _ = writeln!(text, "{}: {}\n", study.id, study.title);
+    if !study.about.trim().is_empty() {
+        let _ = writeln!(text, "{}\n", study.about.trim());
+    }
+    if !study.source.is_empty() {
+        let _ = writeln!(text, "Source: {}\n", study.source);
+    }
 }
 
 fn about_case(text: &mut String, case: &Case, claims: &[Claim]) {
@@ -83,14 +102,15 @@ fn about_case(text: &mut String, case: &Case, claims: &[Claim]) {
 }
 
 fn about_claim(text: &mut String, claim: &Claim) {
+    let tolerance = rounded(claim.tolerance);
     let bound = match claim.relation {
         Relation::AtMost => {
-            format!("error ({}) at most {:e}", claim.error_kind.word().replace('_', " "), claim.tolerance)
+            format!("error ({}) at most {tolerance}", claim.error_kind.word().replace('_', " "))
         }
-        Relation::AtLeast => format!("at least {}", claim.tolerance),
+        Relation::AtLeast => format!("at least {tolerance}"),
         Relation::Within => match claim.expected_order {
-            Some(order) => format!("order {order} within {}", claim.tolerance),
-            None => format!("within {:e} of the reference", claim.tolerance),
+            Some(order) => format!("order {order} within {tolerance}"),
+            None => format!("within {tolerance} of the reference"),
         },
         Relation::Equal => "equal to the reference".into(),
     };

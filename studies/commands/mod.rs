@@ -1,6 +1,7 @@
 //! What each command does.
 
 pub mod explain;
+mod find;
 pub mod judge;
 pub mod list;
 pub mod plan;

@@ -1,15 +1,14 @@
 //! `pd-verify plan STUDY`: what would be done, and what it would cost; runs nothing and writes nothing.
 
-use super::judge::{read_text, settings};
-use super::scene_lines::scene_lines;
-use crate::input::{Refusal, nearest};
+use super::find::find;
+use super::judge::settings;
+use super::scene_lines::SceneLines;
+use crate::input::Refusal;
 use crate::question::{Effort, Planned, Profile};
 use crate::scene::effects;
-use crate::shipped::{SHIPPED, refuse_unused};
 use crate::study::{Case, Study};
 use serde_json::json;
 use std::fmt::Display;
-use std::path::Path;
 
 /// A case as planned.
 struct Row<'a> {
@@ -21,7 +20,7 @@ struct Row<'a> {
 
 /// The plan as text.
 pub fn plan(study: &str, as_json: bool, profile: Profile, set: &[String]) -> Result<String, Refusal> {
-    let study = find(study, set)?;
+    let study = find(study, &settings(set)?)?;
     Ok(planned(&study, as_json, profile))
 }
 
@@ -54,10 +53,11 @@ fn as_text(study: &Study, profile: Profile, rows: &[Row], total: Effort) -> Stri
     }
     text += &line(cells("total", "", "", &total));
     text += "\n";
+    let mut lines = SceneLines::default();
     for row in rows.iter().filter(|row| !row.scenes.is_empty()) {
         let skipped = if row.runs { String::new() } else { format!(", from profile {}", row.case.profile) };
         text += &format!("\n{}: {}{skipped}\n", row.case.place.case, counted(row.scenes.len()));
-        text += &scene_lines(&row.scenes);
+        text += &lines.of_case(&row.scenes);
     }
     text
 }
@@ -116,29 +116,11 @@ fn line<T: Display>(cells: [T; 8]) -> String {
     )
 }
 
-/// A shipped study by id, or a file.
-fn find(name: &str, set: &[String]) -> Result<Study, Refusal> {
-    let settings = settings(set)?;
-    let id = |text| Study::read(name, text, &[]).map_or(String::new(), |(study, _)| study.id);
-    let shipped = SHIPPED.iter().find(|(_, text)| id(text) == name);
-    let (study, used) = match shipped {
-        Some((file, text)) => Study::read(file, text, &settings)?,
-        None => {
-            let ids: Vec<String> = SHIPPED.iter().map(|(_, text)| id(text)).collect();
-            let near = nearest(name, ids.iter().map(String::as_str));
-            let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
-            let cure = format!("{near}give the path of a study file, or an id from `pd-verify list`");
-            Study::read(name, &read_text(Path::new(name), &cure)?, &settings)?
-        }
-    };
-    refuse_unused(&settings, &used)?;
-    Ok(study)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::question::{Answer, Place, Question};
+    use crate::shipped::SHIPPED;
     use crate::subject::Subject;
     use pd_verify::claim::Claim;
 

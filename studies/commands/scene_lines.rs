@@ -11,29 +11,102 @@ struct Alike<'a> {
     scenes: Vec<&'a Planned>,
 }
 
-/// The scenes of a case, those alike under one heading; what does not fit is counted.
-pub fn scene_lines(scenes: &[Planned]) -> String {
-    let mut lines = Vec::new();
-    let mut shown = 0;
-    for alike in alike(scenes) {
-        if lines.len() >= MOST {
-            break;
-        }
-        lines.extend(heading(alike.first));
-        for scene in alike.scenes {
-            // Every heading has at least one scene below it.
-            if lines.len() >= MOST && scene != alike.first {
+/// Names wider than this are cut.
+const WIDEST: usize = 60;
+
+/// A line that is yet to be set: its width depends on the others.
+enum Line<'a> {
+    Text(String),
+    Columns,
+    Scene(&'a Planned),
+}
+
+/// Writes case after case, and remembers which effects it has told last.
+#[derive(Default)]
+pub struct SceneLines {
+    told: Option<[Vec<String>; 2]>,
+}
+
+impl SceneLines {
+    /// The scenes of a case, those alike under one heading; what does not fit is counted.
+    pub fn of_case(&mut self, scenes: &[Planned]) -> String {
+        let mut lines = Vec::new();
+        let mut shown: Vec<&Planned> = Vec::new();
+        for alike in alike(scenes) {
+            if lines.len() >= MOST {
                 break;
             }
-            lines.push(line(scene));
-            shown += 1;
+            lines.extend(self.heading(alike.first));
+            for scene in alike.scenes {
+                // Every heading has at least one scene below it.
+                if lines.len() >= MOST && scene != alike.first {
+                    break;
+                }
+                lines.push(Line::Scene(scene));
+                shown.push(scene);
+            }
+        }
+        let more = scenes.len() - shown.len();
+        if more > 0 {
+            lines.push(Line::Text(format!("  and {more} more; --json has all")));
+        }
+        let names = shown.iter().map(|scene| scene.name.chars().count());
+        let width = names.max().unwrap_or(0).clamp("scene".len(), WIDEST);
+        lines.iter().map(|line| line.set(width) + "\n").collect()
+    }
+
+    fn heading<'a>(&mut self, scene: &Planned) -> Vec<Line<'a>> {
+        let effects = [scene.effects_on.clone(), scene.effects_off.clone()];
+        let texts = if self.told.as_ref() == Some(&effects) {
+            vec!["effects as above".to_owned()]
+        } else {
+            vec![
+                format!("effects on:  {}", listed(&scene.effects_on)),
+                format!("effects off: {}", listed(&scene.effects_off)),
+            ]
+        };
+        self.told = Some(effects);
+        let mut lines = Vec::new();
+        for text in texts.into_iter().chain([format!("operator:    {}", scene.operator)]) {
+            let options = textwrap::Options::new(118).subsequent_indent("                ");
+            let text = format!("  {text}");
+            lines.extend(textwrap::wrap(&text, options).into_iter().map(|line| Line::Text(line.into())));
+        }
+        lines.push(Line::Columns);
+        lines
+    }
+}
+
+impl Line<'_> {
+    /// As text, with names as wide as `width`.
+    fn set(&self, width: usize) -> String {
+        match self {
+            Self::Text(text) => text.clone(),
+            Self::Columns => format!(
+                "    {:<width$} {:>11} {:>12} {:>10} {:>11} {:>8} {:>10} {:>15}",
+                "scene", "nodes", "bonds", "bytes/node", "Δt in s", "Δt/limit", "steps", "node updates"
+            ),
+            Self::Scene(scene) => format!(
+                "    {:<width$} {:>11} {:>12} {:>10.1} {:>11.4e} {:>8.4} {:>10} {:>15}",
+                cut(&scene.name, width),
+                scene.nodes,
+                scene.bonds,
+                scene.bytes_per_node,
+                scene.time_step_s,
+                scene.time_step_over_limit,
+                scene.steps,
+                scene.node_updates
+            ),
         }
     }
-    let more = scenes.len() - shown;
-    if more > 0 {
-        lines.push(format!("  and {more} more; --json has all"));
+}
+
+/// The text, its last character an ellipsis where it is longer than `width`.
+fn cut(text: &str, width: usize) -> String {
+    if text.chars().count() <= width {
+        return text.to_owned();
     }
-    lines.join("\n") + "\n"
+    text.chars().take(width.saturating_sub(1)).chain(['…']).collect()
 }
 
 /// Groups of scenes in the order in which each begins.
@@ -53,39 +126,8 @@ fn alike(scenes: &[Planned]) -> Vec<Alike<'_>> {
     groups
 }
 
-fn heading(scene: &Planned) -> Vec<String> {
-    let mut lines = Vec::new();
-    for (name, text) in [
-        ("effects on: ", listed(&scene.effects_on)),
-        ("effects off:", listed(&scene.effects_off)),
-        ("operator:   ", scene.operator.clone()),
-    ] {
-        let options = textwrap::Options::new(118).subsequent_indent("                ");
-        lines.extend(textwrap::wrap(&format!("  {name} {text}"), options).into_iter().map(String::from));
-    }
-    lines.push(format!(
-        "    {:<30} {:>11} {:>12} {:>10} {:>11} {:>8} {:>10} {:>15}",
-        "scene", "nodes", "bonds", "bytes/node", "Δt in s", "Δt/limit", "steps", "node updates"
-    ));
-    lines
-}
-
 fn listed(effects: &[String]) -> String {
     if effects.is_empty() { "none".to_owned() } else { effects.join(", ") }
-}
-
-fn line(scene: &Planned) -> String {
-    format!(
-        "    {:<30} {:>11} {:>12} {:>10.1} {:>11.4e} {:>8.4} {:>10} {:>15}",
-        scene.name,
-        scene.nodes,
-        scene.bonds,
-        scene.bytes_per_node,
-        scene.time_step_s,
-        scene.time_step_over_limit,
-        scene.steps,
-        scene.node_updates
-    )
 }
 
 #[cfg(test)]
@@ -111,8 +153,9 @@ mod tests {
 
     #[test]
     fn scenes_alike_share_a_heading_and_all_are_told_or_counted() {
-        let text = scene_lines(&[scene(1, "half"), scene(2, "full"), scene(3, "half")]);
-        assert_eq!(text.matches("effects off: damage, contact").count(), 2, "{text}");
+        let text = SceneLines::default().of_case(&[scene(1, "half"), scene(2, "full"), scene(3, "half")]);
+        assert_eq!(text.matches("effects off: damage, contact").count(), 1, "{text}");
+        assert_eq!(text.matches("effects as above\n  operator:    full").count(), 1, "{text}");
         for word in ["m = 1 ", "m = 2 ", "m = 3 ", "1.2500e-7", "0.9000", "4000000", "56.0"] {
             assert!(text.contains(word), "{word}: {text}");
         }
@@ -124,7 +167,7 @@ mod tests {
         let same: Vec<Planned> = (0..300).map(|number| scene(number, "half")).collect();
         let each: Vec<Planned> = (0..300).map(|number| scene(number, &format!("rule {number}"))).collect();
         for scenes in [same, each] {
-            let text = scene_lines(&scenes);
+            let text = SceneLines::default().of_case(&scenes);
             assert!(text.lines().count() <= MOST + 5, "{text}");
             let shown = text.matches("m = ").count();
             assert!(
@@ -137,6 +180,19 @@ mod tests {
     #[test]
     fn no_effect_is_said_so() {
         let bare = Planned { effects_off: Vec::new(), ..scene(1, "half") };
-        assert!(scene_lines(&[bare]).contains("effects off: none"));
+        assert!(SceneLines::default().of_case(&[bare]).contains("effects off: none"));
+    }
+    #[test]
+    fn effects_are_told_once_and_names_make_room() {
+        let named = |name: String| Planned { name, ..scene(1, "half") };
+        let mut lines = SceneLines::default();
+        assert!(lines.of_case(&[named("a".into())]).contains("effects on:  bond forces"));
+        let next = lines.of_case(&[named("a".repeat(45)), named("b".repeat(70))]);
+        assert!(next.contains("effects as above") && !next.contains("effects on:"), "{next}");
+        assert!(next.contains(&format!("{}…", "b".repeat(59))), "{next}");
+        let widths: Vec<usize> = next.lines().skip(2).map(|line| line.chars().count()).collect();
+        assert!(widths.windows(2).all(|pair| pair[0] == pair[1]), "{next}");
+        let other = Planned { effects_off: Vec::new(), ..scene(1, "half") };
+        assert!(lines.of_case(&[other]).contains("effects off: none"));
     }
 }

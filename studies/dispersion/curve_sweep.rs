@@ -3,11 +3,11 @@
 use super::curve::{Curve, Medium};
 use super::sweep::{check_count, check_usable, kernels};
 use super::words::{BranchName, KernelName, SchemeName, VolumeRuleName};
-use crate::input::{OneOrMany, Positive, one_or_many};
+use crate::input::{OneOrMany, one_or_many};
 use pd_verify::dispersion::Branch;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
-use pd_verify::scene::Wrong;
+use pd_verify::scene::{Positive, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::HashSet;

@@ -3,7 +3,7 @@
 use super::curve::{reference_kernel, reference_lattice};
 use super::sweep::{check_sizes, kernels};
 use super::words::{KernelName, VolumeRuleName};
-use crate::input::{OneOrMany, Positive};
+use crate::input::OneOrMany;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
@@ -15,7 +15,7 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Series};
-use pd_verify::scene::Wrong;
+use pd_verify::scene::{Positive, Wrong};
 use pd_verify::table::Table;
 use pd_verify::verdict::Evidence;
 use pd_verify_reference as reference;

@@ -3,7 +3,7 @@
 use super::curve::reference_kernel;
 use super::sweep::kernels;
 use super::words::KernelName;
-use crate::input::{OneOrMany, Positive};
+use crate::input::OneOrMany;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
@@ -13,7 +13,7 @@ use pd_verify::kernel::Kernel;
 use pd_verify::material::Body;
 use pd_verify::micromodulus::normalised;
 use pd_verify::report::plot::{Axis, Figure, Lines, Series};
-use pd_verify::scene::Wrong;
+use pd_verify::scene::{Positive, Wrong};
 use pd_verify::table::Table;
 use pd_verify_reference as reference;
 use schemars::JsonSchema;

@@ -3,7 +3,6 @@
 use super::curve::{Curve, Medium};
 use super::label::labels;
 use super::sweep::LatticeSweep;
-use crate::input::Positive;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
@@ -12,7 +11,7 @@ use pd_verify::compare::largest;
 use pd_verify::dispersion::Branch;
 use pd_verify::material::Body;
 use pd_verify::report::plot::{Axis, Figure, Polar as PolarPanel, Series};
-use pd_verify::scene::Wrong;
+use pd_verify::scene::{Positive, Wrong};
 use pd_verify::table::Table;
 use rayon::prelude::*;
 use schemars::JsonSchema;

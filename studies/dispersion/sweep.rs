@@ -1,11 +1,11 @@
 //! Sweeps of lattices in study files: lists of parameters whose every combination is a lattice, and what is refused.
 
 use super::words::{KernelName, VolumeRuleName};
-use crate::input::{OneOrMany, Positive, one_or_many};
+use crate::input::{OneOrMany, one_or_many};
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::{Lattice, Stencil, Unusable};
 use pd_verify::material::Body;
-use pd_verify::scene::Wrong;
+use pd_verify::scene::{Positive, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -1,8 +1,7 @@
 //! Which wavenumbers a curve is drawn at: a range that ends at the Brillouin zone's edge, or a list.
 
 use super::curve::Curve;
-use crate::input::Positive;
-use pd_verify::scene::Wrong;
+use pd_verify::scene::{Positive, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -1,8 +1,9 @@
 //! A study file as a tree of plain SI values that remembers where each of them was written.
 
+use super::meant::meant;
 use super::refusal::{Refusal, nearest};
 use super::set::Setting;
-use super::units::{Conversion, to_si};
+use super::units::{Conversion, other_units, to_si, with_units};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use std::collections::HashMap;
@@ -242,19 +243,29 @@ impl Document {
 }
 
 fn did_you_mean(wrong: &str, allowed: &[&str], as_written: impl Fn(&str) -> String) -> String {
-    let listed = format!("allowed: {}", allowed.join(", "));
+    let all: Vec<String> = allowed.iter().map(|key| with_units(key)).collect();
+    let listed = format!("allowed: {}", all.join(", "));
+    if let Some((word, advice)) = meant(wrong, allowed) {
+        return format!("{}; {listed}", advice.replacen(word, &as_written(word), 1));
+    }
     match nearest(wrong, allowed.iter().copied()) {
         Some(word) => format!("did you mean `{}`? {listed}", as_written(word)),
         None => listed,
     }
 }
 
-/// A key in the unit of another: `youngs_modulus_pa` like `young_modulus_gpa` is `youngs_modulus_gpa`.
+/// A key in the unit of another: `youngs_modulus_pa` like `young_modulus_gpa` is `youngs_modulus_gpa`, and so it is like
+/// `youngs_modulus_gp`, whose unit is misspelt.
 fn like(key: &str, written: &str) -> String {
     let unit = written.rfind('_').map_or("", |at| &written[at..]);
     let stem = key.rfind('_').map_or(key, |at| &key[..at]);
     let other = format!("{stem}{unit}");
-    if to_si(&other).0 == key { other } else { key.to_owned() }
+    if to_si(&other).0 == key {
+        return other;
+    }
+    let forms = other_units(key);
+    let near = nearest(written, forms.iter().map(String::as_str).chain([key]));
+    near.unwrap_or(key).to_owned()
 }
 
 /// serde's words without the names of Rust.

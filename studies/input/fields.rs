@@ -83,7 +83,7 @@ impl<T: JsonSchema> JsonSchema for OneOrMany<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::Positive;
+    use pd_verify::scene::Positive;
     use serde_json::{from_value, json};
 
     #[test]

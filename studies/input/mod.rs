@@ -5,13 +5,13 @@
 
 mod document;
 mod fields;
+mod meant;
 mod refusal;
 mod set;
 mod units;
 
 pub use document::{Document, MAX_BYTES};
 pub use fields::{OneOrMany, one_or_many};
-pub use pd_verify::scene::Positive;
 pub use refusal::{Refusal, nearest};
 pub use set::Setting;
 pub use units::other_units;

@@ -1,7 +1,7 @@
 //! Units in keys: SI is the form of record (`dx_m`); common others (`dx_mm`) are converted on reading.
 
 /// Endings that are read, the SI ending they stand for, and the exact power of ten between them.
-const ENDINGS: [(&str, &str, i32); 18] = [
+const ENDINGS: [(&str, &str, i32); 21] = [
     ("_kpa", "_pa", 3),
     ("_mpa", "_pa", 6),
     ("_gpa", "_pa", 9),
@@ -20,6 +20,9 @@ const ENDINGS: [(&str, &str, i32); 18] = [
     ("_per_mm", "_per_m", 3),
     ("_per_um", "_per_m", 6),
     ("_per_nm", "_per_m", 9),
+    ("_per_ms", "_per_s", 3),
+    ("_per_us", "_per_s", 6),
+    ("_per_ns", "_per_s", 9),
 ];
 
 /// How a key's numbers become SI.
@@ -58,6 +61,25 @@ pub fn other_units(key: &str) -> Vec<String> {
     forms.filter(|form| to_si(form).0 == key).collect()
 }
 
+/// The other units of a key as a message names them; what is written most comes first.
+const NAMED: [(&str, &str); 6] = [
+    ("_kg_m3", "_g_cm3"),
+    ("_per_m", "_per_mm, _per_um, …"),
+    ("_per_s", "_per_ms, _per_us, …"),
+    ("_pa", "_mpa, _gpa, …"),
+    ("_m", "_mm, _um, …"),
+    ("_s", "_ms, _us, …"),
+];
+
+/// A key with what its ending may be instead: `dx_m (or _mm, _um, …)`.
+pub fn with_units(key: &str) -> String {
+    let named = NAMED.iter().find(|(si, _)| key.ends_with(si));
+    match named {
+        Some((_, others)) if !other_units(key).is_empty() => format!("{key} (or {others})"),
+        _ => key.to_owned(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -68,6 +90,24 @@ mod tests {
         assert!(other_units("to_per_m").iter().all(|form| form.starts_with("to_per_")));
         assert!(other_units("density_kg_m3").contains(&"density_g_cm3".to_owned()));
         assert!(other_units("kernel").is_empty());
+    }
+
+    #[test]
+    fn what_messages_name_is_read() {
+        assert_eq!(with_units("dx_m"), "dx_m (or _mm, _um, …)");
+        assert_eq!(with_units("kernel"), "kernel");
+        assert_eq!(with_units("density_n_m3"), "density_n_m3");
+        for (si, others) in NAMED {
+            for other in others.split(", ").filter(|other| *other != "…") {
+                assert_eq!(to_si(&format!("x{other}")).0, format!("x{si}"));
+            }
+        }
+    }
+
+    #[test]
+    fn rates_are_no_times() {
+        assert_eq!(to_si("rate_per_ms"), ("rate_per_s".into(), Conversion { power: 3 }));
+        assert!(other_units("rate_per_s").contains(&"rate_per_us".to_owned()));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use pd_verify::forces::{Class, Force, Now};
 use pd_verify::grid::Grid;
 use pd_verify::plan::Plan;
 use pd_verify::record::Record;
-use pd_verify::scene::{Acts, Rotations, Scene, Setting};
+use pd_verify::scene::{Acts, Scene, Setting};
 
 /// Names of the probes that are put beside the author's; no probe of a study can have such a name.
 pub const BALANCE: &str = "(energy balance)";
@@ -40,8 +40,8 @@ impl Either {
     /// Whether leapfrog keeps the ledger exactly.
     pub fn linear(&self) -> bool {
         match self {
-            Self::Bar(_) => true,
-            Self::Plate(scene) => scene.rotations == Rotations::Small,
+            Self::Bar(scene) => scene.linear(),
+            Self::Plate(scene) => scene.linear(),
         }
     }
 
@@ -77,7 +77,7 @@ fn loads<const D: usize>(scene: &Scene<D>) -> Option<Vec<Box<dyn Force<D>>>> {
         return None;
     }
     let grid = Grid::new(scene.nodes, scene.spacing, 0);
-    let setting = Setting { grid: &grid, density: scene.material.density };
+    let setting = Setting::of(scene, &grid);
     let load = |acts| match acts {
         Ok(Acts::Force(force)) if force.class() == Class::Load => Some(force),
         _ => None,

@@ -4,12 +4,11 @@ use super::balances::{BALANCE, MOMENTUM};
 use super::march::MarchAsked;
 use super::size::cells;
 use super::time::time;
-use crate::input::Positive;
 use crate::written::Written;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
-use pd_verify::scene::{Effect, Initial, InitialAsked, Probe, Quantity, Scene, Watch, Wrong};
+use pd_verify::scene::{Effect, Initial, InitialAsked, Positive, Probe, Quantity, Scene, Watch, Wrong};
 use std::sync::Arc;
 
 /// Nodes times steps up to which the ledger is kept though no probe asks for it: seconds.
@@ -64,17 +63,25 @@ pub fn scene<const D: usize>(
             every: 1,
         }),
     );
-    let mut plan = Plan::of(&scene)?;
+    let mut plan = planned(&scene)?;
     let energies = scene.probes[..own].iter().any(|probe| probe.watch == Watch::Energies);
     if plan.node_updates > MAX_BOOKED && !energies {
         scene.probes.truncate(own);
-        plan = Plan::of(&scene)?;
+        plan = planned(&scene)?;
     }
     for (index, probe) in scene.probes.iter_mut().enumerate() {
         let booked = plan.steps.div_ceil(1000).max(1);
         probe.every = asked.probe.get(index).map_or(booked, |asked| asked.every(plan.steps));
     }
     Ok((scene, plan))
+}
+
+/// The plan of a scene; only a study file can ask for a step above the limit, so only here that is said.
+fn planned<const D: usize>(scene: &Scene<D>) -> Result<Plan, Wrong> {
+    Plan::of(scene).map_err(|wrong| match wrong.key == "time_step_s" && wrong.message.contains("above") {
+        true => Wrong { help: wrong.help + ", or say unstable = true to watch it happen", ..wrong },
+        false => wrong,
+    })
 }
 
 fn size<const D: usize>(asked: &MarchAsked) -> Result<[f64; D], Wrong> {

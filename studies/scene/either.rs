@@ -85,7 +85,7 @@ fn beginning<const D: usize>(scene: &Scene<D>, operator: Operator, steps: u64, p
     let own = own.map(|probe| Probe { every, ..probe.clone() });
     let word = if operator == Operator::Stencil { "stencil" } else { "bonds" };
     Scene {
-        name: format!("{}, begun by {word}", scene.name),
+        name: format!("{}, check: first {steps} steps by {word}", scene.name),
         operator,
         time: Time {
             duration: steps as f64 * seconds,

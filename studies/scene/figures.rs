@@ -1,8 +1,10 @@
 //! A figure for each probe: what it saw over time, or along a line at a few times.
 
 use super::balances::asked_for;
+use super::figure_units::{Unit, is_rounding, largest, largest_displacement};
 use crate::question::Place;
-use pd_verify::record::{Record, Trace};
+use crate::rounded::rounded;
+use pd_verify::record::{Column, Record, Trace};
 use pd_verify::report::plot::{Axis, Figure, Lines, Series};
 
 /// Panels beyond these would not be read.
@@ -14,28 +16,41 @@ const MOST_TIMES: usize = 6;
 /// Points that a curve needs on paper.
 const MOST_POINTS: usize = 4000;
 
+/// What a probe saw of a scene, and how far the scene moved.
+struct Seen<'a> {
+    scene: &'a str,
+    trace: &'a Trace,
+    displacement: f64,
+}
+
 /// The figures of a case, in the order of its probes.
 pub fn figures(title: &str, records: &[&Record], place: &Place) -> Vec<Figure> {
     let Some(first) = records.first() else { return Vec::new() };
     let probes = first.traces.iter().map(|trace| &trace.probe).filter(|probe| asked_for(probe));
+    let moved: Vec<f64> = records.iter().map(|record| largest_displacement(record)).collect();
     let of = |probe: &String| {
-        let traces =
-            records.iter().filter_map(|record| Some((record.plan.name.as_str(), record.trace(probe)?)));
-        figure(title, probe, &traces.collect::<Vec<_>>(), place)
+        let seen = records.iter().zip(&moved).filter_map(|(record, &displacement)| {
+            Some(Seen { scene: record.plan.name.as_str(), trace: record.trace(probe)?, displacement })
+        });
+        figure(title, probe, &seen.collect::<Vec<_>>(), place)
     };
     probes.map(of).collect()
 }
 
-fn figure(title: &str, probe: &str, traces: &[(&str, &Trace)], place: &Place) -> Figure {
-    let (mut panels, caption) = match traces.first().map(|(_, trace)| trace.columns.as_slice()) {
-        Some([first, ..]) if first.unit == "J" => (energies(traces), "Energies and works over time."),
-        Some([first, second, ..]) if first.at != second.at && first.at.is_some() => {
-            (along(traces), "Displacements along a line of nodes.")
+fn figure(title: &str, probe: &str, seen: &[Seen<'_>], place: &Place) -> Figure {
+    let columns = seen.first().map_or(&[][..], |one| one.trace.columns.as_slice());
+    let (mut panels, mut caption) = match columns {
+        [first, ..] if first.unit == "J" => (energies(seen), "Energies and works over time.".to_owned()),
+        [first, second, ..] if columns.len() > 2 || first.at != second.at => {
+            (along(seen), format!("Displacements along a line of nodes{}.", line_place(columns)))
         }
-        Some(columns) if columns.len() > 2 => (along(traces), "Displacements along a line of nodes."),
-        _ => (over_time(traces), "What the probe saw over time."),
+        _ => (over_time(seen), format!("What the probe saw over time{}.", point_place(columns))),
     };
-    let mut caption = caption.to_owned();
+    for quantity in quantities(columns) {
+        if seen.iter().all(|one| is_rounding(one.trace, quantity, one.displacement)) {
+            caption += &format!(" The {} is zero to rounding.", in_words(quantity));
+        }
+    }
     if panels.len() > MOST_PANELS {
         caption += &format!(" The first {MOST_PANELS} of {} panels; probes.csv has all.", panels.len());
         panels.truncate(MOST_PANELS);
@@ -52,57 +67,90 @@ fn figure(title: &str, probe: &str, traces: &[(&str, &Trace)], place: &Place) ->
 }
 
 /// A panel for each quantity, a curve for each scene.
-fn over_time(traces: &[(&str, &Trace)]) -> Vec<Lines> {
-    let Some((_, first)) = traces.first() else { return Vec::new() };
-    let panel = |(index, column): (usize, &pd_verify::record::Column)| {
-        let series = traces.iter().map(|(name, trace)| {
-            Series::line(if traces.len() > 1 { *name } else { "" }, curve(trace, index))
+fn over_time(seen: &[Seen<'_>]) -> Vec<Lines> {
+    let Some(first) = seen.first() else { return Vec::new() };
+    let time = time_unit(seen);
+    let panel = |(index, column): (usize, &Column)| {
+        let unit = value_unit(seen, column.quantity);
+        let series = seen.iter().map(|one| {
+            let name = if seen.len() > 1 { one.scene } else { "" };
+            Series::line(name, curve(one.trace, index, time, unit))
         });
-        Lines::new(time(), value_axis(column.quantity, column.unit), series.collect())
+        Lines::new(time_axis(time), value_axis(column, unit), series.collect())
     };
-    first.columns.iter().enumerate().map(panel).collect()
+    first.trace.columns.iter().enumerate().map(panel).collect()
 }
 
 /// A panel for each scene, a curve for each account that is not empty.
-fn energies(traces: &[(&str, &Trace)]) -> Vec<Lines> {
-    let panel = |(name, trace): &(&str, &Trace)| {
-        let columns = trace.columns.iter().enumerate();
-        let used = columns.filter(|(index, _)| trace.rows.iter().any(|row| row[*index] != 0.0));
+fn energies(seen: &[Seen<'_>]) -> Vec<Lines> {
+    let time = time_unit(seen);
+    let panel = |one: &Seen<'_>| {
+        let columns = one.trace.columns.iter().enumerate();
+        let used = columns.filter(|(index, _)| one.trace.rows.iter().any(|row| row[*index] != 0.0));
         let series = used.map(|(index, column)| {
-            Series::line(column.quantity.replace('_', " "), curve(trace, index)).slot(index)
+            let points = curve(one.trace, index, time, None);
+            Series::line(column.quantity.replace('_', " "), points).slot(index)
         });
-        let panel = Lines::new(time(), Axis::linear("energy (J)"), series.collect());
-        if traces.len() > 1 { panel.titled(*name) } else { panel }
+        let panel = Lines::new(time_axis(time), Axis::linear("energy (J)"), series.collect());
+        if seen.len() > 1 { panel.titled(one.scene) } else { panel }
     };
-    traces.iter().map(panel).collect()
+    seen.iter().map(panel).collect()
 }
 
 /// A panel for each scene and component, a curve for each of a few times.
-fn along(traces: &[(&str, &Trace)]) -> Vec<Lines> {
+fn along(seen: &[Seen<'_>]) -> Vec<Lines> {
+    let time = time_unit(seen);
     let mut panels = Vec::new();
-    for (name, trace) in traces {
-        let axis = usize::from(runs_along_y(trace));
-        let mut quantities: Vec<&'static str> = trace.columns.iter().map(|column| column.quantity).collect();
-        quantities.sort_unstable();
-        quantities.dedup();
-        for quantity in quantities {
+    for Seen { scene, trace, .. } in seen {
+        let axis = usize::from(runs_along_y(&trace.columns));
+        for quantity in quantities(&trace.columns) {
             let here: Vec<usize> =
                 (0..trace.columns.len()).filter(|&index| trace.columns[index].quantity == quantity).collect();
+            let unit = value_unit(seen, quantity);
+            let value = |si: f64| unit.map_or(si, |unit| unit.of(si));
             let place = |index: usize| trace.columns[index].at.as_ref().map_or(f64::NAN, |at| at[axis]);
             let series = shown(trace.times.len()).into_iter().map(|look| {
-                let points = here.iter().map(|&index| (place(index), trace.rows[look][index]));
-                Series::line(format!("t = {} s", significant(trace.times[look])), points.collect())
+                let points = here.iter().map(|&index| (place(index), value(trace.rows[look][index])));
+                let at = format!("t = {} {}", rounded(time.of(trace.times[look])), time.name);
+                Series::line(at, points.collect())
             });
             let x = Axis::linear(if axis == 0 { "x (m)" } else { "y (m)" });
-            let panel = Lines::new(x, value_axis(quantity, "m"), series.collect());
-            panels.push(if traces.len() > 1 { panel.titled(*name) } else { panel });
+            let Some(&first) = here.first() else { continue };
+            let panel = Lines::new(x, value_axis(&trace.columns[first], unit), series.collect());
+            panels.push(if seen.len() > 1 { panel.titled(*scene) } else { panel });
         }
     }
     panels
 }
 
-fn runs_along_y(trace: &Trace) -> bool {
-    let mut places = trace.columns.iter().filter_map(|column| column.at.as_ref());
+/// The quantities of a probe, each once.
+fn quantities(columns: &[Column]) -> Vec<&'static str> {
+    let mut quantities: Vec<&'static str> = columns.iter().map(|column| column.quantity).collect();
+    quantities.sort_unstable();
+    quantities.dedup();
+    quantities
+}
+
+/// Where a point stands: ` at (0.1, 0.025) m`; nothing for quantities of the whole body.
+fn point_place(columns: &[Column]) -> String {
+    match columns.first().and_then(|column| column.at.as_deref()) {
+        Some([x]) => format!(" at {} m", rounded(*x)),
+        Some([x, y, ..]) => format!(" at ({}, {}) m", rounded(*x), rounded(*y)),
+        _ => String::new(),
+    }
+}
+
+/// Where a line of a plate runs: ` at y = 0.025 m`; nothing for a bar.
+fn line_place(columns: &[Column]) -> String {
+    match columns.first().and_then(|column| column.at.as_deref()) {
+        Some([x, ..]) if runs_along_y(columns) => format!(" at x = {} m", rounded(*x)),
+        Some([_, y, ..]) => format!(" at y = {} m", rounded(*y)),
+        _ => String::new(),
+    }
+}
+
+fn runs_along_y(columns: &[Column]) -> bool {
+    let mut places = columns.iter().filter_map(|column| column.at.as_ref());
     let first = places.next();
     places.any(|at| first.is_some_and(|first| at[0] == first[0] && at.get(1) != first.get(1)))
 }
@@ -115,34 +163,44 @@ fn shown(looks: usize) -> Vec<usize> {
     (0..MOST_TIMES).map(|n| n * (looks - 1) / (MOST_TIMES - 1)).collect()
 }
 
-fn curve(trace: &Trace, index: usize) -> Vec<(f64, f64)> {
+fn curve(trace: &Trace, index: usize, time: Unit, unit: Option<Unit>) -> Vec<(f64, f64)> {
     let thin = trace.times.len().div_ceil(MOST_POINTS).max(1);
-    trace.times.iter().zip(&trace.rows).step_by(thin).map(|(t, row)| (*t, row[index])).collect()
+    let point =
+        |(t, row): (&f64, &Vec<f64>)| (time.of(*t), unit.map_or(row[index], |unit| unit.of(row[index])));
+    trace.times.iter().zip(&trace.rows).step_by(thin).map(point).collect()
 }
 
-fn time() -> Axis {
-    Axis::linear("time t (s)")
+fn time_unit(seen: &[Seen<'_>]) -> Unit {
+    let last = seen.iter().filter_map(|one| one.trace.times.last().copied());
+    Unit::of_time(last.fold(0.0, f64::max))
 }
 
-fn value_axis(quantity: &str, unit: &str) -> Axis {
-    let name = match quantity {
-        "displacement_x" => "displacement along x",
-        "displacement_y" => "displacement along y",
-        "momentum_x" => "momentum along x",
-        "momentum_y" => "momentum along y",
-        other => other,
+fn time_axis(unit: Unit) -> Axis {
+    Axis::linear(format!("time t ({})", unit.name))
+}
+
+/// The unit of a displacement in all scenes of a figure; where there is only rounding, that of what else moves.
+fn value_unit(seen: &[Seen<'_>], quantity: &str) -> Option<Unit> {
+    let of = |one: &Seen<'_>| {
+        let most = largest(one.trace, |column| column.quantity == quantity && column.unit == "m");
+        if is_rounding(one.trace, quantity, one.displacement) { one.displacement } else { most }
     };
-    Axis::linear(if unit == "1" { name.to_owned() } else { format!("{name} ({unit})") })
+    let most = seen.iter().map(of).fold(0.0, f64::max);
+    quantity.starts_with("displacement").then(|| Unit::of_displacement(most))
 }
 
-/// Three digits, as in 2.4e-4.
-fn significant(value: f64) -> String {
-    let text = format!("{value:.2e}");
-    match text.split_once('e') {
-        Some((digits, "0")) => digits.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        Some((digits, power)) => {
-            format!("{}e{power}", digits.trim_end_matches('0').trim_end_matches('.'))
-        }
-        None => text,
+fn value_axis(column: &Column, unit: Option<Unit>) -> Axis {
+    let name = in_words(column.quantity);
+    match (column.unit, unit) {
+        (_, Some(unit)) => Axis::linear(format!("{name} ({})", unit.name)),
+        ("1", None) => Axis::linear(name),
+        (si, None) => Axis::linear(format!("{name} ({si})")),
+    }
+}
+
+fn in_words(quantity: &str) -> String {
+    match quantity.rsplit_once('_') {
+        Some((name, axis @ ("x" | "y"))) => format!("{name} along {axis}"),
+        _ => quantity.replace('_', " "),
     }
 }

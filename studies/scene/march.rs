@@ -13,7 +13,7 @@ use super::probe_table::{MAX_ROWS, table};
 use super::probes::{ProbeAsked, WatchName, looks, quantities};
 use crate::dispersion::sweep::LatticeSweep;
 use crate::dispersion::words::BodyName;
-use crate::input::{OneOrMany, Positive, Refusal};
+use crate::input::{OneOrMany, Refusal};
 use crate::question::{Answer, Place, Planned, Question};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
@@ -23,7 +23,7 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
 use pd_verify::record::{Failure, Record};
-use pd_verify::scene::{InitialAsked, Operator, Rotations, Wrong};
+use pd_verify::scene::{InitialAsked, Operator, Positive, Rotations, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -122,12 +122,11 @@ impl Asked for MarchAsked {
         }
         self.check_rows(&scenes, of.dimension())?;
         let plans: Vec<&Plan> = scenes.iter().map(|one| &one.plan).collect();
-        let asked = self.expect.iter().flatten().enumerate();
-        let expect = asked.map(|(index, expect)| {
-            let found = expect.check(&self.probe, &plans, of.dimension());
-            found.map_err(|wrong| wrong.inside(&format!("expect[{index}]")))
-        });
-        let expect = expect.collect::<Result<_, _>>()?;
+        let mut expect: Vec<Expect> = Vec::new();
+        for (index, asked) in self.expect.iter().flatten().enumerate() {
+            let found = asked.check(index, &expect, &self.probe, &plans, of.dimension());
+            expect.push(found.map_err(|wrong| wrong.inside(&format!("expect[{index}]")))?);
+        }
         Ok(March { title: written.title.to_owned(), scenes, expect })
     }
 }
@@ -180,9 +179,18 @@ impl Question for March {
     }
 
     fn scenes(&self) -> Vec<Planned> {
-        let twice =
-            |one: &Marched| one.twice.iter().flat_map(|twice| twice.plans.clone()).collect::<Vec<_>>();
-        self.scenes.iter().flat_map(|one| [vec![one.plan.clone()], twice(one)].concat()).collect()
+        let alone = self.scenes.len() == 1;
+        let of = |one: &Marched| {
+            let mut plans = vec![one.plan.clone()];
+            plans.extend(one.twice.iter().flat_map(|twice| twice.plans.clone()));
+            let own = format!("{}, ", one.plan.name);
+            // Where there is one scene only, its name says nothing.
+            for plan in plans.iter_mut().skip(1).filter(|_| alone) {
+                plan.name = plan.name.strip_prefix(&own).unwrap_or(&plan.name).to_owned();
+            }
+            plans
+        };
+        self.scenes.iter().flat_map(of).collect()
     }
 
     fn equations(&self) -> &'static str {

@@ -9,6 +9,7 @@ mod edges;
 pub mod effects;
 mod either;
 mod expect;
+mod figure_units;
 mod figures;
 pub mod march;
 mod march_claims;

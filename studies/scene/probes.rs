@@ -99,7 +99,7 @@ impl ProbeAsked {
     /// Steps from one look to the next.
     pub fn every(&self, steps: u64) -> u64 {
         let chosen = match self.watches {
-            WatchName::Line => (steps / 5).max(1),
+            WatchName::Line => steps.div_ceil(5).max(1),
             _ if steps <= 2000 => 1,
             _ => steps.div_ceil(500),
         };
@@ -134,13 +134,10 @@ pub fn looks(watches: WatchName, every: u64, plan: &Plan) -> (f64, f64, u64) {
             (half, last(after) + half, after + 1)
         }
         WatchName::Momentum => {
-            let count = plan.steps / every;
-            (every as f64 * step - half, last(count) - half, count)
+            let first = every.min(plan.steps) as f64 * step - half;
+            (first, plan.steps as f64 * step - half, plan.steps.div_ceil(every))
         }
-        _ => {
-            let after = plan.steps / every;
-            (0.0, last(after), after + 1)
-        }
+        _ => (0.0, plan.steps as f64 * step, plan.steps.div_ceil(every) + 1),
     }
 }
 

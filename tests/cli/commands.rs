@@ -43,6 +43,36 @@ fn explain_takes_a_study_a_case_and_a_claim() {
 }
 
 #[test]
+fn explain_takes_a_file_and_rounds_its_bounds() {
+    let text = printed(&["explain", "study.toml"]);
+    assert!(text.starts_with("mine: Aluminium") && text.contains("bound:"), "{text}");
+    for id in ["dispersion-bar", "dispersion-plane", "bar-release", "bar-pulse", "bar-statics"] {
+        let text = printed(&["explain", id]);
+        let bounds = text.lines().filter(|line| line.trim().starts_with("bound:"));
+        let digits =
+            |word: &str| word.split('e').next().unwrap_or_default().matches(char::is_numeric).count();
+        for bound in bounds {
+            assert!(bound.split(' ').all(|word| digits(word) <= 7), "{bound}");
+        }
+    }
+    Place::new().refuses(&["explain", "none.toml"], &["cannot read none.toml"]);
+}
+
+#[test]
+fn a_shipped_study_and_each_of_its_cases_can_be_copied() {
+    for (_, text) in crate::studies::shipped() {
+        let id = text.parse::<toml::Table>().unwrap()["id"].as_str().unwrap().to_owned();
+        assert_eq!(printed(&["explain", &id, "--toml"]), text);
+    }
+    let case = printed(&["explain", "bar-release/release-calibrated-p3", "--toml"]);
+    assert!(case.contains("[material]") && case.matches("[[case]]").count() == 1, "{case}");
+    let place = Place::with_study(case);
+    place.run(&["plan", "study.toml"]).code(0).stdout(contains("release-calibrated-p3"));
+    assert_eq!(printed(&["explain", "study.toml", "--toml"]), small());
+    Place::new().refuses(&["explain", "bar-release", "--toml", "--bibtex"], &["cannot be used with"]);
+}
+
+#[test]
 fn explain_suggests_what_was_meant() {
     for (wrong, right) in [
         ("dispersion-bra", "dispersion-bar"),
@@ -63,6 +93,10 @@ fn plan_takes_an_id_and_a_file() {
     assert!(json["total"]["bond_evaluations"].as_u64().unwrap() > 100_000);
     let quick = printed(&["plan", "dispersion-plane", "--profile", "quick"]);
     assert!(quick.contains("skipped: from profile standard"), "{quick}");
+    let case = printed(&["plan", "bar-release/release-source"]);
+    assert!(case.contains("release-source") && !case.contains("release-calibrated-p2"), "{case}");
+    Place::new()
+        .refuses(&["plan", "bar-release/release-sorce"], &["did you mean bar-release/release-source?"]);
     Place::new().refuses(&["plan", "dispersion-plan"], &["cannot read", "did you mean dispersion-plane?"]);
 }
 

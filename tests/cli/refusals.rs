@@ -35,6 +35,18 @@ fn a_cure_is_one_that_cures() {
         "young_modulus_gpa",
         &["unknown key `young_modulus_gpa`", "did you mean `youngs_modulus_gpa`?"],
     )]);
+    refused(&[
+        Slip(
+            "youngs_modulus_gpa",
+            "youngs_modulus_gp",
+            &["did you mean `youngs_modulus_gpa`?", "(or _mpa, _gpa, …)"],
+        ),
+        Slip(
+            "density_kg_m3",
+            "densty_g_cm3",
+            &["did you mean `density_g_cm3`?", "density_kg_m3 (or _g_cm3)"],
+        ),
+    ]);
     // Keys of a case are no keys of its curves.
     let place = Place::with_study(small_with("m = 3\n", "m = 3\ntitel = \"x\"\n"));
     let assert = place.run(&["run", "study.toml"]).code(2);

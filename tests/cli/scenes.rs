@@ -253,3 +253,95 @@ fn the_schema_knows_effects_by_word() {
         assert!(text.contains(&format!("\"{key}\":")), "the schema has no {key}");
     }
 }
+
+fn verdict(place: &Place, study: &str, claim: &str) -> BTreeMap<String, String> {
+    let verdicts = rows(&place.read(&format!("reports/{study}/verdicts.csv")));
+    let found = verdicts.iter().find(|row| row["claim"].rsplit('/').next() == Some(claim));
+    found.unwrap_or_else(|| panic!("no claim {claim}: {verdicts:?}")).clone()
+}
+
+#[test]
+fn a_march_above_its_limit_proves_nothing() {
+    let place = Place::with_study(bar_with("safety = 0.8", "time_step_us = 3\nunstable = true"));
+    place.run(&["run", "study.toml"]).stdout(contains("inconclusive"));
+    for claim in ["finite", "energy_balance", "operators_agree"] {
+        let row = verdict(&place, "my-bar", claim);
+        assert_eq!(row["verdict"], "inconclusive", "{claim}");
+        assert!(row["note"].contains("run above its limit on purpose"), "{row:?}");
+    }
+    let free = BAR.replace("left = \"mirror_odd\", ", "");
+    let place = Place::with_study(free.replacen("safety = 0.8", "time_step_us = 3\nunstable = true", 1));
+    place.run(&["run", "study.toml"]).stdout(contains("inconclusive"));
+    assert_eq!(verdict(&place, "my-bar", "momentum")["verdict"], "inconclusive");
+}
+
+#[test]
+fn reasons_are_those_of_the_law() {
+    let place = Place::with_study(BAR);
+    place.run(&["explain", "study.toml"]).code(0).stdout(contains("quadratic form positive"));
+    let place = Place::with_study(bar_with("safety = 0.8", "rotations = \"finite\""));
+    let said = place.run(&["explain", "study.toml"]).code(0);
+    said.stdout(contains("tension lowers").and(contains("quadratic form positive").not()));
+}
+
+#[test]
+fn an_expectation_says_what_was_seen_and_where() {
+    let wrong = bar_with("value = 0\n", "value = 1e-5\n")
+        .replace("probe = \"middle\"", "name = \"even\"\nprobe = \"middle\"");
+    let place = Place::with_study(&wrong);
+    place.run(&["run", "study.toml"]).code(1).stdout(contains("even").and(contains("expected 1e-5")));
+    let note = verdict(&place, "my-bar", "even")["note"].clone();
+    assert!(note.starts_with("saw ") && note.ends_with(", expected 1e-5"), "{note}");
+    let late = wrong
+        .replace("at_us = 0\n", "at_us = 100\n")
+        .replace("volume_rule", "calibrated = [false, true], volume_rule");
+    let place = Place::with_study(late.replace(", calibrated = true", ""));
+    place.run(&["run", "study.toml"]).code(1);
+    let row = verdict(&place, "my-bar", "even");
+    assert!(
+        row["note"].starts_with("as printed: saw ") || row["note"].starts_with("calibrated: saw "),
+        "{row:?}"
+    );
+    assert!(row["quantity"].contains("of 2 lattices the furthest"), "{row:?}");
+    refused(&[
+        Slip(
+            "quantity = \"strain\"",
+            "name = \"finite\"\nquantity = \"strain\"",
+            &["study.toml:48:", "another claim"],
+        ),
+        Slip(
+            "quantity = \"strain\"",
+            "name = \"A b\"\nquantity = \"strain\"",
+            &["study.toml:48:", "cannot name a claim"],
+        ),
+    ]);
+}
+
+#[test]
+fn words_that_people_try_are_answered() {
+    refused(&[
+        Slip(
+            "size_m = 1.0",
+            "length_m = 1.0",
+            &["study.toml:14:", "did you mean `size_m`? it is the length of a bar"],
+        ),
+        Slip("size_m = 1.0", "length_mm = 1000", &["did you mean `size_mm`?", "dx_m (or _mm, _um, …)"]),
+        Slip(
+            "\"mirror_odd\"",
+            "\"fixed\"",
+            &["study.toml:19:", "to hold an edge: mirror_odd", "prescribed_motion"],
+        ),
+        Slip("duration_ms", "duraton_ms", &["did you mean `duration_ms`?", "duration_s (or _ms, _us, …)"]),
+    ]);
+}
+
+#[test]
+fn a_plan_says_what_is_checked_and_effects_once() {
+    let second = BAR.split_once("[[case]]").unwrap().1.replacen("\"pull\"", "\"other\"", 1);
+    let place = Place::with_study(format!("{BAR}\n[[case]]{second}"));
+    let said = place.run(&["plan", "study.toml"]).code(0);
+    let text = String::from_utf8_lossy(&said.get_output().stdout).into_owned();
+    for word in ["check: first ", " steps by stencil", " steps by bonds", "effects as above"] {
+        assert!(text.contains(word), "no {word}: {text}");
+    }
+}

@@ -7,6 +7,7 @@ mod checks;
 mod costs;
 mod motion;
 mod probes;
+mod refused;
 mod wrong;
 
 use bodies::{cases, constant, force, model, places, scene};

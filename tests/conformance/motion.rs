@@ -5,7 +5,7 @@ use crate::checks::{Checked, same_bits};
 use crate::wrong::{Way, spoilt};
 use pd_verify::constraints::Edge::{Free, MirrorOdd, Periodic};
 use pd_verify::constraints::Edges;
-use pd_verify::forces::{BodyForce, Damper, Damping, Traction};
+use pd_verify::forces::{BodyForce, Damper, Damping};
 use pd_verify::ledger::Ledger;
 use pd_verify::march::March;
 use pd_verify::model::Model;
@@ -85,7 +85,9 @@ fn a_force_that_knows_its_threads_is_noticed() {
 fn nothing<const D: usize>() -> Vec<Arc<dyn Effect<D>>> {
     let (step, late) = (json!({ "shape": "step" }), json!({ "shape": "step", "start_s": 1e9 }));
     vec![
-        effect::<D, Traction>(json!({ "edge": "right", "axis": "x", "stress_pa": 0.0, "history": step })),
+        effect::<D, BodyForce>(
+            json!({ "region": { "edge": "right" }, "axis": "x", "density_n_m3": 0.0, "history": step }),
+        ),
         effect::<D, BodyForce>(json!({ "axis": "x", "density_n_m3": 0.0, "history": step })),
         effect::<D, BodyForce>(json!({ "axis": "x", "density_n_m3": 1e9, "history": late })),
     ]
@@ -129,8 +131,10 @@ fn looks<const D: usize>(plain: &Scene<D>, model: &Model<D>) {
         let (all, some) = (seen.trace("line").unwrap(), record.trace("line").unwrap());
         assert!(some.rows.len() > 5);
         for (n, row) in some.rows.iter().enumerate() {
-            assert_eq!(some.times[n], all.times[4 * n]);
-            same_bits("what a line probe saw", row, &all.rows[4 * n]).unwrap();
+            // The last step is looked at in any case.
+            let step = (4 * n).min(all.rows.len() - 1);
+            assert_eq!(some.times[n], all.times[step]);
+            same_bits("what a line probe saw", row, &all.rows[step]).unwrap();
         }
     }
 }

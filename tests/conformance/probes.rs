@@ -1,7 +1,7 @@
 //! Probes, held against fields that they must reproduce and against the pace that they were given.
 
 use crate::bodies::{constant, effect, scene};
-use pd_verify::constraints::PrescribedMotion;
+use pd_verify::constraints::{Edge, Edges, PrescribedMotion};
 use pd_verify::forces::BodyForce;
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::record::run;
@@ -25,13 +25,13 @@ fn probes_see_linear_fields_exactly() {
     for (n, at) in points.iter().enumerate() {
         let trace = record.trace(&n.to_string()).unwrap();
         assert!(near(trace.rows[0][0], 1e-3 * at[0] - 2e-3 * at[1]) && near(trace.rows[0][1], 5e-4 * at[0]));
-        assert_eq!(trace.rows.len() as u64, record.plan.steps / 3 + 1);
+        assert_eq!(trace.rows.len() as u64, record.plan.steps.div_ceil(3) + 1);
         for (k, t) in trace.times.iter().enumerate() {
-            assert_eq!(*t, (3 * k) as f64 * record.plan.time_step_s);
+            assert_eq!(*t, (3 * k as u64).min(record.plan.steps) as f64 * record.plan.time_step_s);
         }
     }
     let line = record.trace("line").unwrap();
-    assert_eq!((line.columns.len(), line.rows.len() as u64), (20, record.plan.steps / 5 + 1));
+    assert_eq!((line.columns.len(), line.rows.len() as u64), (20, record.plan.steps.div_ceil(5) + 1));
     // The column through 3.2 Δx has its nodes at 3.5 Δx.
     assert!(near(line.rows[0][6], 1e-3 * 3.5 * dx - 2e-3 * 3.5 * dx));
     assert_eq!(line.columns[6].at, Some(vec![3.5 * dx, 3.5 * dx]));
@@ -63,4 +63,36 @@ fn probes_see_linear_fields_exactly() {
 
 fn probe<const D: usize>(name: String, watch: Watch<D>, every: u64) -> Probe<D> {
     Probe { name, watch, every }
+}
+
+/// Across an edge that mirrors or repeats the body probes see its ghosts.
+#[test]
+fn probes_see_across_edges() {
+    let bar = scene::<1>(constant(2.0, VolumeRule::Linear, false), [10]);
+    let dx = bar.spacing;
+    let displacement = vec![Initial { component: 0, amplitude: 1e-3, shape: Shape::Linear { along: 0 } }];
+    let probes = vec![
+        probe("held".into(), Watch::Point { at: [0.0] }, 1),
+        probe("end".into(), Watch::Point { at: [10.0 * dx] }, 1),
+        probe("strain".into(), Watch::Strain { at: 10.0 * dx }, 1),
+        probe("first".into(), Watch::Strain { at: 0.0 }, 1),
+    ];
+    let mirrored = Scene {
+        edges: Edges([[Edge::MirrorOdd, Edge::MirrorEven]]),
+        displacement: displacement.clone(),
+        probes: probes.clone(),
+        ..bar.clone()
+    };
+    let record = run(&mirrored).unwrap();
+    let seen = |name: &str| record.trace(name).unwrap().column(0);
+    assert!(seen("held").iter().all(|u| *u == 0.0) && seen("strain").iter().all(|strain| *strain == 0.0));
+    assert!(
+        (seen("end")[0] / (9.5e-3 * dx) - 1.0).abs() < 1e-14 && (seen("first")[0] / 1e-3 - 1.0).abs() < 1e-13
+    );
+    let ring = Scene { edges: Edges([[Edge::Periodic, Edge::Periodic]]), displacement, probes, ..bar };
+    let record = run(&ring).unwrap();
+    let seen = |name: &str| record.trace(name).unwrap().column(0);
+    let near = |a: Vec<f64>, b: Vec<f64>, slack: f64| a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= slack);
+    assert!(near(seen("held"), seen("end"), 1e-15 * dx) && seen("held").len() > 10);
+    assert!(near(seen("first"), seen("strain"), 1e-15));
 }

@@ -6,7 +6,7 @@
 #[allow(dead_code, unused_imports)]
 mod input;
 
-use input::{Document, OneOrMany, Positive, Setting};
+use input::{Document, OneOrMany, Setting};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -20,7 +20,7 @@ fuzz_target!(|bytes: &[u8]| {
         let _ = document.set(&setting);
     }
     let cases = document.get("case").cloned().unwrap_or_default();
-    if let Err(refusal) = document.read::<OneOrMany<Positive>>("case", &cases, &["id"]) {
+    if let Err(refusal) = document.read::<OneOrMany<f64>>("case", &cases, &["id"]) {
         drop(format!("{:?}", miette::Report::new(refusal)));
     }
 });
