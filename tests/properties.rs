@@ -5,13 +5,14 @@
 #[allow(dead_code, unused_imports)]
 mod input;
 
-use input::{Document, OneOrMany, Positive, Setting};
+use input::{Document, OneOrMany, Setting};
 use pd_verify::dispersion::bar::BarDispersion;
 use pd_verify::dispersion::plane::PlaneDispersion;
 use pd_verify::dispersion::{Branch, continuum};
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::{Lattice, Stencil};
 use pd_verify::partial_volume::VolumeRule;
+use pd_verify::scene::Positive;
 use proptest::prelude::*;
 use serde_json::Value;
 use std::fs;

@@ -7,7 +7,7 @@ use super::effects::{Acting, EffectAsked};
 use super::either::Either;
 use super::expect::{Expect, ExpectAsked};
 use super::figures::figures;
-use super::march_claims::{claims, evidence};
+use super::march_claims::{claims, evidence, why};
 use super::operators::Twice;
 use super::probe_table::{MAX_ROWS, table};
 use super::probes::{ProbeAsked, WatchName, looks, quantities};
@@ -207,7 +207,7 @@ ledger: ½ρV Σ v(n + ½)² + ½ u(n)ᵀK u(n + 1) − work is constant; moment
             (vec![table(seen(), place)], figures(&self.title, &seen().collect::<Vec<_>>(), place));
         let failure = runs.iter().find_map(|run| run.as_ref().err());
         let evidence = match failure {
-            Some(failure) => Answer::failed(&self.claims(place), &failure.to_string()).evidence,
+            Some(failure) => Answer::failed(&self.claims(place), &why(self, failure)).evidence,
             None => evidence(self, &seen().collect::<Vec<_>>(), subject),
         };
         Answer { evidence, tables, figures }

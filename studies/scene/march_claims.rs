@@ -6,7 +6,7 @@ use super::operators::rounding;
 use crate::question::{Claiming, Place, claim, error_of, value_of};
 use crate::subject::Subject;
 use pd_verify::claim::{Basis, Claim, ErrorKind};
-use pd_verify::record::Record;
+use pd_verify::record::{Failure, Record};
 use pd_verify::verdict::Evidence;
 
 /// Drift of a march is no rounding beyond this, however long it lasts.
@@ -131,6 +131,16 @@ pub fn evidence(case: &March, records: &[&Record], subject: &dyn Subject) -> Vec
     }
     found.extend(case.expect.iter().map(|expect| (expect.name.clone(), expect.evidence(records))));
     found
+}
+
+/// Why a march has no record, and what can be done about it where nobody meant it.
+pub fn why(case: &March, failure: &Failure) -> String {
+    let grew = matches!(failure, Failure::Diverged { .. });
+    let advice = match grew && !is_linear(case) && !above_limit(case) {
+        true => "; that is the limit of the linear lattice, which tension lowers: take a smaller Δt",
+        false => "",
+    };
+    format!("{failure}{advice}")
 }
 
 /// Evidence that says nothing where the march was made to be unstable.

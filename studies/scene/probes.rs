@@ -35,7 +35,7 @@ pub struct ProbeAsked {
     /// Of `line` in a plate: where it crosses the other axis.
     pub through_m: Option<f64>,
     /// Steps from one look to the next. Default: 1, beyond 2000 steps such that there are about 500 looks; a line is
-    /// seen at t = 0 and 5 times more.
+    /// seen at t = 0 and up to 5 times more.
     pub every_steps: Option<u64>,
 }
 

@@ -154,6 +154,38 @@ fn every_claim_of_a_march_is_lost_to_some_fault() {
 }
 
 #[test]
+fn what_finite_rotations_lose_is_said_with_its_cure() {
+    let turned = study(&BAR.replace("lattice =", "rotations = \"finite\"\nlattice ="));
+    let drifting = Falsified(|_, record| scale(record, "kinetic", 1.5));
+    let judged = run(&turned, Profile::Full, &drifting, &Silent).judged;
+    let energy = judged.iter().find(|one| one.claim.id.ends_with("energy_balance")).unwrap();
+    assert_eq!(energy.verdict, Verdict::Fail);
+    assert!(energy.evidence.note.contains("take a smaller Δt"), "{}", energy.evidence.note);
+    let grown = |scene: &Scene<1>| Failure::Diverged {
+        scene: scene.name.clone(),
+        step: 1,
+        time: 1.0,
+        over_limit: 1.0,
+    };
+    let said = |case: &str| {
+        let judged = run(&study(case), Profile::Full, &Growing(grown), &Silent).judged;
+        judged[0].evidence.failed.clone().unwrap()
+    };
+    assert!(!said(BAR).contains("tension"), "{}", said(BAR));
+    let turned = BAR.replace("lattice =", "rotations = \"finite\"\nlattice =");
+    assert!(said(&turned).contains("tension lowers"), "{}", said(&turned));
+}
+
+/// The library where every march fails.
+struct Growing(fn(&Scene<1>) -> Failure);
+
+impl Subject for Growing {
+    fn march_bar(&self, scene: &Scene<1>) -> Result<Record, Failure> {
+        Err((self.0)(scene))
+    }
+}
+
+#[test]
 fn claims_give_their_reasons() {
     for case in [BAR, ALL] {
         for claim in study(case).cases[0].claims() {
