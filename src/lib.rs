@@ -76,6 +76,7 @@
 
 pub mod claim;
 pub mod compare;
+pub mod connectivity;
 pub mod constraints;
 pub mod dispersion;
 pub mod family;

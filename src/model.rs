@@ -2,6 +2,7 @@
 //!
 //! A model is the list of its terms. What a scene does not call for is not in the list and costs nothing.
 
+use crate::connectivity::Connectivity;
 use crate::constraints::{Constraint, Edges};
 use crate::family::half_family;
 use crate::forces::surface::{Correction, Factors};
@@ -134,7 +135,8 @@ fn bonds<const D: usize, L: Law>(
     grid: &Grid<D>,
 ) -> Vec<Box<dyn Force<D>>> {
     let family = family(stencil, scene.modulus(), scene.spacing);
-    let present = |node, offset| scene.edges.present(scene.nodes, node, offset);
+    let connectivity = Connectivity::of(scene);
+    let present = |node, offset| connectivity.present(node, offset);
     let factors = surface_factors(scene, &family, grid);
     let neutral = |node| factors.as_ref().is_none_or(|factors| factors.neutral(node));
     let mut forces: Vec<Box<dyn Force<D>>> = vec![match scene.operator {
@@ -160,5 +162,5 @@ pub fn surface_factors<const D: usize>(
         .map(|neighbour| neighbour.fraction)
         .collect();
     (scene.surface != Correction::None)
-        .then(|| Factors::new(scene.surface, grid, scene.edges, family, &fractions))
+        .then(|| Factors::new(scene.surface, grid, Connectivity::of(scene), family, &fractions))
 }

@@ -1,5 +1,6 @@
 //! How a scene is served and what it costs, decided before anything is computed: effects, operator, Δt, work.
 
+use crate::connectivity::Connectivity;
 use crate::constraints::Edge;
 use crate::dispersion::timestep;
 use crate::forces::surface::Correction;
@@ -55,8 +56,9 @@ impl Plan {
             acts.map_err(|wrong| wrong.inside(&format!("effect[{index}]")))?;
         }
         bytes += terms.bytes;
-        let ends = bond_ends(scene, &stencil);
-        bytes += operator_bytes(scene, &grid, stencil.bonds.len(), ends);
+        let connectivity = Connectivity::of(scene);
+        let ends = bond_ends(scene, &stencil, &connectivity, &grid);
+        bytes += operator_bytes(scene, &grid, &stencil, &connectivity, ends);
         let band = band(scene, &stencil, &grid);
         bytes += BondList::<D, Small>::bytes_for(band.nodes, (2 * band.nodes * stencil.bonds.len()) as u64);
         let limit = stable_time_step(scene, &stencil) / band.largest_factor.sqrt();
@@ -155,8 +157,19 @@ fn state_bytes<const D: usize>(scene: &Scene<D>, grid: &Grid<D>) -> usize {
     fields * size_of::<f64>() * grid.field().len()
 }
 
-/// Bonds counted once from each of their ends.
-fn bond_ends<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>) -> u64 {
+/// Bonds counted once from each of their ends: by the sizes alone where no notch cuts.
+fn bond_ends<const D: usize>(
+    scene: &Scene<D>,
+    stencil: &Stencil<D>,
+    connectivity: &Connectivity<D>,
+    grid: &Grid<D>,
+) -> u64 {
+    let both = stencil.bonds.iter().flat_map(|bond| [bond.offset, bond.offset.map(|n| -n)]);
+    if connectivity.notched() {
+        return both
+            .map(|offset| grid.each().filter(|node| connectivity.present(*node, offset)).count() as u64)
+            .sum();
+    }
     let ends = |offset: [i32; D]| -> u64 {
         let along = |axis: usize| {
             let [below, above] = scene.edges.0[axis];
@@ -166,27 +179,51 @@ fn bond_ends<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>) -> u64 {
         };
         (0..D).map(along).product()
     };
-    stencil.bonds.iter().map(|bond| ends(bond.offset) + ends(bond.offset.map(|n| -n))).sum()
+    both.map(ends).sum()
 }
 
 /// What the operator keeps, from counts alone.
-fn operator_bytes<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, pairs: usize, ends: u64) -> usize {
+fn operator_bytes<const D: usize>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    stencil: &Stencil<D>,
+    connectivity: &Connectivity<D>,
+    ends: u64,
+) -> usize {
     match (scene.operator, scene.rotations) {
         (Operator::Bonds, Rotations::Small) => BondList::<D, Small>::bytes_for(grid.count(), ends),
         (Operator::Bonds, Rotations::Finite) => BondList::<D, Finite>::bytes_for(grid.count(), ends),
         (Operator::Stencil, _) => {
-            let whole: [usize; D] = std::array::from_fn(|axis| {
-                let free = scene.edges.0[axis].iter().filter(|edge| **edge == Edge::Free).count();
-                grid.nodes[axis].saturating_sub(free * grid.halo)
-            });
-            let count: usize = whole.iter().product();
-            // A plate has a run in each row, a bar one in each piece that holds whole nodes.
-            let first = grid.halo * (1 + usize::from(scene.edges.0[0][0] == Edge::Free));
-            let pieces = || (first + count).div_ceil(grid.piece()) - first / grid.piece();
-            let runs = if count == 0 { 0 } else { whole.get(1).copied().unwrap_or_else(pieces) };
-            LatticeStencil::<D, Small>::bytes_for(pairs, runs, grid.count() - count)
+            let (runs, whole) = whole_nodes(scene, grid, stencil, connectivity);
+            LatticeStencil::<D, Small>::bytes_for(stencil.bonds.len(), runs, grid.count() - whole)
         }
     }
+}
+
+/// Runs of nodes that have all their bonds, and how many nodes: by the sizes alone where no notch cuts.
+fn whole_nodes<const D: usize>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    stencil: &Stencil<D>,
+    connectivity: &Connectivity<D>,
+) -> (usize, usize) {
+    if connectivity.notched() {
+        let has = |node, offset: [i32; D]| {
+            connectivity.present(node, offset) && connectivity.present(node, offset.map(|n| -n))
+        };
+        let runs = grid.runs(|node| stencil.bonds.iter().all(|bond| has(node, bond.offset)));
+        return (runs.iter().map(Vec::len).sum(), runs.iter().flatten().map(|run| run.len).sum());
+    }
+    let whole: [usize; D] = std::array::from_fn(|axis| {
+        let free = scene.edges.0[axis].iter().filter(|edge| **edge == Edge::Free).count();
+        grid.nodes[axis].saturating_sub(free * grid.halo)
+    });
+    let count: usize = whole.iter().product();
+    // A plate has a run in each row, a bar one in each piece that holds whole nodes.
+    let first = grid.halo * (1 + usize::from(scene.edges.0[0][0] == Edge::Free));
+    let pieces = || (first + count).div_ceil(grid.piece()) - first / grid.piece();
+    let runs = if count == 0 { 0 } else { whole.get(1).copied().unwrap_or_else(pieces) };
+    (runs, count)
 }
 
 fn effects<const D: usize>(scene: &Scene<D>) -> (Vec<String>, Vec<String>) {
@@ -196,6 +233,7 @@ fn effects<const D: usize>(scene: &Scene<D>) -> (Vec<String>, Vec<String>) {
     let law = if scene.rotations == Rotations::Finite { Finite::NAME } else { Small::NAME };
     say(true, &format!("{law} rotations"));
     say(scene.lattice.calibrated, "lattice calibration");
+    say(!scene.notches.is_empty(), "notch");
     say(scene.surface != Correction::None, "surface correction");
     say(!scene.displacement.is_empty(), "initial displacement");
     say(!scene.velocity.is_empty(), "initial velocity");

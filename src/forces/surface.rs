@@ -6,7 +6,7 @@
 //! the counted volume of a family. Both are 1 in the bulk, exactly.
 
 use super::FamilyBond;
-use crate::constraints::Edges;
+use crate::connectivity::Connectivity;
 use crate::grid::Grid;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -35,8 +35,7 @@ impl Correction {
 /// The factors of a body's bonds.
 pub struct Factors<const D: usize> {
     correction: Correction,
-    nodes: [usize; D],
-    edges: Edges<D>,
+    connectivity: Connectivity<D>,
     units: Vec<[f64; D]>,
     offsets: Vec<[i32; D]>,
     /// By node, row by row: bulk over node, energies along each axis, or the counted volume alone.
@@ -48,7 +47,7 @@ impl<const D: usize> Factors<D> {
     pub fn new(
         correction: Correction,
         grid: &Grid<D>,
-        edges: Edges<D>,
+        connectivity: Connectivity<D>,
         family: &[FamilyBond<D>],
         fractions: &[f64],
     ) -> Self {
@@ -70,16 +69,15 @@ impl<const D: usize> Factors<D> {
         };
         let bulk = total(&|_| true);
         let of = |node| {
-            let own = total(&|offset| edges.present(grid.nodes, node, offset));
+            let own = total(&|offset| connectivity.present(node, offset));
             std::array::from_fn(|axis| if own[axis] == bulk[axis] { 1.0 } else { bulk[axis] / own[axis] })
         };
         Self {
             correction,
-            nodes: grid.nodes,
-            edges,
+            of_node: grid.each().map(of).collect(),
             units: family.iter().map(|bond| bond.direction.unit).collect(),
             offsets: family.iter().map(|bond| bond.offset).collect(),
-            of_node: grid.each().map(of).collect(),
+            connectivity,
         }
     }
 
@@ -105,17 +103,15 @@ impl<const D: usize> Factors<D> {
     /// Whether every bond of a node keeps its weight.
     pub fn neutral(&self, node: [isize; D]) -> bool {
         self.offsets.iter().enumerate().all(|(bond, offset)| {
-            let from = |sign: isize| std::array::from_fn(|axis| node[axis] + sign * offset[axis] as isize);
-            let (forward, backward): ([isize; D], [isize; D]) = (from(1), from(-1));
-            let inside = |other: [isize; D]| self.edges.image(self.nodes, other).is_some();
-            (!inside(forward) || self.of(node, bond) == 1.0)
-                && (!inside(backward) || self.of(backward, bond) == 1.0)
+            let backward = std::array::from_fn(|axis| node[axis] - offset[axis] as isize);
+            let exists = |sign: i32| self.connectivity.present(node, offset.map(|n| sign * n));
+            (!exists(1) || self.of(node, bond) == 1.0) && (!exists(-1) || self.of(backward, bond) == 1.0)
         })
     }
 
     /// The largest factor of a bond that exists: the frequencies of a body of positive weights grow by at most its root.
     pub fn largest(&self, grid: &Grid<D>) -> f64 {
-        let exists = |node, bond: usize| self.edges.present(self.nodes, node, self.offsets[bond]);
+        let exists = |node, bond: usize| self.connectivity.present(node, self.offsets[bond]);
         let of = |node| {
             let bonds = (0..self.offsets.len()).filter(move |&bond| exists(node, bond));
             bonds.map(|bond| self.of(node, bond)).fold(1.0, f64::max)
@@ -124,8 +120,8 @@ impl<const D: usize> Factors<D> {
     }
 
     fn at(&self, node: [isize; D]) -> [f64; D] {
-        let Some(image) = self.edges.image(self.nodes, node) else { return [1.0; D] };
+        let Some(image) = self.connectivity.image(node) else { return [1.0; D] };
         let row = image.get(1).copied().unwrap_or(0);
-        self.of_node[(row * self.nodes[0] as isize + image[0]) as usize]
+        self.of_node[(row * self.connectivity.nodes()[0] as isize + image[0]) as usize]
     }
 }

@@ -6,6 +6,7 @@
 mod effect;
 mod history;
 mod initial;
+mod notch;
 mod place;
 mod positive;
 mod probe;
@@ -15,6 +16,7 @@ mod wrong;
 pub use effect::{Acts, Effect, Setting};
 pub use history::{History, HistoryAsked, HistoryShape};
 pub use initial::{Initial, InitialAsked, Quantity, Shape};
+pub use notch::{Notch, NotchAsked};
 pub use place::{Axis, Region, Side};
 pub use positive::Positive;
 pub use probe::{Probe, Watch};
@@ -68,7 +70,9 @@ pub struct Scene<const D: usize> {
     pub rotations: Rotations,
     pub operator: Operator,
     pub edges: Edges<D>,
-    /// For bonds near free edges.
+    /// Cuts through a plate; a bar has none.
+    pub notches: Vec<Notch>,
+    /// For bonds near free edges and notches.
     pub surface: Correction,
     /// Displacements at t = 0, summed.
     pub displacement: Vec<Initial<D>>,
@@ -102,6 +106,7 @@ impl<const D: usize> Scene<D> {
             rotations: Rotations::Small,
             operator: Operator::Stencil,
             edges: Edges::default(),
+            notches: Vec::new(),
             surface: Correction::None,
             displacement: Vec::new(),
             velocity: Vec::new(),

@@ -8,7 +8,9 @@ use crate::written::Written;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
-use pd_verify::scene::{Effect, Initial, InitialAsked, Positive, Probe, Quantity, Scene, Watch, Wrong};
+use pd_verify::scene::{
+    Effect, Initial, InitialAsked, Notch, NotchAsked, Positive, Probe, Quantity, Scene, Watch, Wrong,
+};
 use std::sync::Arc;
 
 /// Nodes times steps up to which the ledger is kept though no probe asks for it: seconds.
@@ -20,6 +22,19 @@ pub fn material(written: &Written<'_>) -> Result<Material, Wrong> {
         let help = "add a [material] table with youngs_modulus_pa and density_kg_m3";
         Wrong::new("", "a march needs a material", help)
     })
+}
+
+/// The notches of a plate.
+fn notches<const D: usize>(asked: &MarchAsked, nodes: [usize; D], spacing: f64) -> Result<Vec<Notch>, Wrong> {
+    let written = asked.notch.as_deref().unwrap_or_default();
+    if D == 1 && !written.is_empty() {
+        return Err(Wrong::new("notch", "a bar has no notches", "leave them out, or take a plate"));
+    }
+    let size = std::array::from_fn(|axis| nodes.get(axis).map_or(0.0, |&count| count as f64 * spacing));
+    let one = |(index, notch): (usize, &NotchAsked)| {
+        notch.check(size, spacing).map_err(|wrong| wrong.inside(&format!("notch[{index}]")))
+    };
+    written.iter().enumerate().map(one).collect()
 }
 
 /// The scene on one lattice with its plan, and whether energy and momentum are booked.
@@ -44,6 +59,7 @@ pub fn scene<const D: usize>(
         rotations: asked.rotations.unwrap_or_default(),
         operator: asked.operator.unwrap_or_default(),
         edges,
+        notches: notches::<D>(asked, nodes, spacing)?,
         surface: asked.surface_correction.unwrap_or_default(),
         displacement: initial(asked, Quantity::Displacement)?,
         velocity: initial(asked, Quantity::Velocity)?,

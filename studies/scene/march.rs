@@ -23,7 +23,7 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
 use pd_verify::record::{Failure, Record};
-use pd_verify::scene::{InitialAsked, Operator, Positive, Rotations, Wrong};
+use pd_verify::scene::{InitialAsked, NotchAsked, Operator, Positive, Rotations, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -54,6 +54,8 @@ pub struct MarchAsked {
     /// Default `none`.
     pub surface_correction: Option<Correction>,
     pub edges: Option<EdgesAsked>,
+    /// Of a plate: straight cuts, which part the bonds that cross them.
+    pub notch: Option<Vec<NotchAsked>>,
     /// Every combination is a scene.
     pub lattice: LatticeSweep,
     /// Fields at t = 0, summed.

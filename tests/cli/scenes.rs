@@ -111,7 +111,7 @@ fn a_bar_is_marched_and_its_probes_are_written() {
 #[test]
 fn the_examples_pass_and_a_plate_that_must_turn_needs_finite_rotations() {
     let place = Place::new();
-    for file in ["pulled-bar.toml", "spinning-plate.toml"] {
+    for file in ["pulled-bar.toml", "spinning-plate.toml", "notched-plate.toml"] {
         place.run(&["run", &example(file), "--strict", "--quiet"]).code(0);
     }
     let turned = place.run(&["run", &example("spinning-plate.toml"), "--set", "case.spin.rotations=small"]);
@@ -239,6 +239,20 @@ fn probes_and_expectations_that_see_nothing() {
         .replace("name = \"line\"", "name = \"line\"\nevery_steps = 1");
     Place::with_study(long)
         .refuses(&["run", "study.toml"], &["rows are asked for", "at most 2000000", "every_steps"]);
+}
+
+#[test]
+fn notches_lie_in_plates() {
+    let place = Place::new();
+    let with = |notch: &str| format!("case.pull.notch={notch}");
+    for (notch, words) in [
+        ("[{from_m=[0,0.04],to_m=[0.2,0.04]}]", ["notch leaves the body", "inside"]),
+        ("[{from_m=[0,0.04],to_m=[0.001,0.04]}]", ["shorter than a cell", "over a cell"]),
+    ] {
+        place.refuses(&["run", &example("notched-plate.toml"), "--set", &with(notch)], &words);
+    }
+    let bar = BAR.replace("size_m", "notch = [{ from_m = [0, 0], to_m = [1, 1] }]\nsize_m");
+    Place::with_study(bar).refuses(&["run", "study.toml"], &["study.toml:", "a bar has no notches"]);
 }
 
 #[test]

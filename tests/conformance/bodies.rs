@@ -50,6 +50,7 @@ pub fn scene<const D: usize>(lattice: Lattice, nodes: [usize; D]) -> Scene<D> {
         rotations: Rotations::Small,
         operator: Operator::Stencil,
         edges: Edges::default(),
+        notches: vec![],
         surface: Correction::None,
         displacement: vec![],
         velocity: vec![],

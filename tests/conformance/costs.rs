@@ -13,7 +13,7 @@ use pd_verify::scene::{Operator, Scene};
 use serde_json::json;
 
 /// State and force, and what the terms of a model say they keep.
-fn bytes<const D: usize>(model: &Model<D>) -> usize {
+pub fn bytes<const D: usize>(model: &Model<D>) -> usize {
     let terms: usize = model.forces().iter().map(|force| force.bytes()).sum();
     terms + 3 * 8 * model.grid.field().len()
 }

@@ -6,6 +6,7 @@ mod by_hand;
 mod checks;
 mod costs;
 mod motion;
+mod notched;
 mod probes;
 mod refused;
 mod wrong;

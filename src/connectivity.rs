@@ -1,0 +1,72 @@
+//! Which bonds exist: those whose ends lie in the body, or beyond an edge that mirrors or repeats it, and that no notch
+//! cuts. Notches are mirrored and repeated with the body.
+
+use crate::constraints::{Edge, Edges};
+use crate::scene::{Notch, Scene};
+
+/// The bonds of a body.
+#[derive(Debug, Clone)]
+pub struct Connectivity<const D: usize> {
+    nodes: [usize; D],
+    spacing: f64,
+    edges: Edges<D>,
+    /// With their images beyond the edges.
+    notches: Vec<Notch>,
+}
+
+impl<const D: usize> Connectivity<D> {
+    pub fn of(scene: &Scene<D>) -> Self {
+        let mut notches = scene.notches.clone();
+        for (axis, edges) in scene.edges.0.into_iter().enumerate() {
+            let size = scene.size()[axis];
+            let images = |notch: &Notch| {
+                let beyond = |(edge, place, way): (Edge, f64, f64)| match edge {
+                    Edge::Free => None,
+                    Edge::MirrorOdd | Edge::MirrorEven => Some(notch.mirrored(axis, place)),
+                    Edge::Periodic => Some(notch.moved(axis, way)),
+                };
+                [(edges[0], 0.0, -size), (edges[1], size, size)]
+                    .into_iter()
+                    .filter_map(beyond)
+                    .collect::<Vec<_>>()
+            };
+            let more: Vec<Notch> = notches.iter().flat_map(images).collect();
+            notches.extend(more);
+        }
+        Self { nodes: scene.nodes, spacing: scene.spacing, edges: scene.edges, notches }
+    }
+
+    /// Whether the bond from a node of the body to its neighbour at `offset` exists.
+    pub fn present(&self, node: [isize; D], offset: [i32; D]) -> bool {
+        self.edges.present(self.nodes, node, offset) && !self.is_cut(node, offset)
+    }
+
+    fn is_cut(&self, node: [isize; D], offset: [i32; D]) -> bool {
+        if self.notches.is_empty() {
+            return false;
+        }
+        let place = |shift: f64| -> [f64; 2] {
+            std::array::from_fn(|axis| {
+                let at = |axis: usize| node[axis] as f64 + 0.5 + shift * f64::from(offset[axis]);
+                if axis < D { at(axis) * self.spacing } else { 0.0 }
+            })
+        };
+        let (a, b) = (place(0.0), place(1.0));
+        self.notches.iter().any(|notch| notch.cuts(a, b, self.spacing))
+    }
+
+    /// Whether any bond is cut by a notch.
+    pub fn notched(&self) -> bool {
+        !self.notches.is_empty()
+    }
+
+    /// The node of the body that a node repeats; `None` beyond a free edge.
+    pub fn image(&self, node: [isize; D]) -> Option<[isize; D]> {
+        self.edges.image(self.nodes, node)
+    }
+
+    /// Cells along each axis.
+    pub fn nodes(&self) -> [usize; D] {
+        self.nodes
+    }
+}
