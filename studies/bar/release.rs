@@ -1,7 +1,7 @@
 //! `asks = "release"`: a stretched bar is let go; strain and displacement at a place against the exact square wave, its
 //! Fourier series, and the exact motion of the lattice itself.
 
-use super::jump::{self, JumpErrors};
+use super::jump::{self, AWAY, JumpErrors};
 use super::names::names;
 use super::release_report;
 use super::released::{BarAsked, LINE, POINT, Released, STRAIN, marching, planned, probes};
@@ -196,23 +196,38 @@ impl Release {
         let overshoots: Option<Vec<f64>> = seen.iter().map(|seen| seen.errors.overshoot).collect();
         let far = |overshoot: &f64| (overshoot - AIRY_OVERSHOOT).abs();
         let furthest = overshoots.and_then(|all| all.into_iter().max_by(|a, b| far(a).total_cmp(&far(b))));
+        let count = format!("{} lattices", seen.len());
         let exact_time = worst(&|seen| seen.exact_time);
         let note =
             exact_time.map_or(String::new(), |error| format!("{error:.2e} against modes in exact time"));
         let mut evidence = vec![
             ("modes".into(), error_of(worst(&|seen| seen.modes), note)),
             ("fourier".into(), error_of(self.fourier_error(subject, seen), format!("{} terms", self.terms))),
-            ("front_speed".into(), error_of(speed, format!("{} lattices", seen.len()))),
-            (
-                "overshoot".into(),
-                value_of(furthest, Some(AIRY_OVERSHOOT), format!("{} lattices", seen.len())),
-            ),
+            ("front_speed".into(), self.of_fronts(error_of(speed, count.clone()))),
+            ("overshoot".into(), self.of_fronts(value_of(furthest, Some(AIRY_OVERSHOOT), count))),
         ];
         if self.bound.is_some() {
             let l1 = worst(&|seen| Some(seen.errors.l1));
             evidence.push(("l1".into(), error_of(l1, format!("{} steps", self.scenes[0].1.steps))));
         }
         evidence
+    }
+
+    /// Evidence that rests on the shape of a front by itself: away from both ends of the bar.
+    fn of_fronts(&self, evidence: Evidence) -> Evidence {
+        let away = self.place.min(self.bar.exact.length - self.place);
+        let near = |(scene, plan): &(Scene<1>, Plan)| {
+            let front = jump::front(scene.lattice, self.bar.courant(scene, plan));
+            let way = (self.bar.exact.length - self.place) / scene.spacing;
+            front.is_none_or(|front| away < AWAY * front.width(way) * scene.spacing)
+        };
+        if !self.scenes.iter().any(near) {
+            return evidence;
+        }
+        let words = format!(
+            "a front is seen by itself {AWAY} of its widths away from both ends only, and the probe is nearer"
+        );
+        Evidence { outside: Some(words), ..evidence }
     }
 
     /// The series against d'Alembert at the times of the line probe, over the bound of what is left out.

@@ -7,6 +7,7 @@ use super::released::{POINT, STRAIN};
 use crate::question::Place;
 use pd_verify::report::plot::{Axis, Category, Colour, Dash, Dots, Figure, Lines, Series};
 use pd_verify::table::{Cell, Table};
+use rayon::prelude::*;
 
 /// Rows per curve and points per line, about.
 const SHOWN: usize = 800;
@@ -82,49 +83,58 @@ fn errors(release: &Release, seen: &[Seen], place: &Place) -> Table {
 
 /// The exact curve, its series, then for each lattice the march and the lattice's modes in exact time.
 pub fn curves(release: &Release, seen: &[Seen]) -> Vec<Curve> {
-    let bar = &release.bar.exact;
-    let mut curves = Vec::new();
-    for (((scene, _), seen), label) in release.scenes.iter().zip(seen).zip(&release.labels) {
-        let (Some(strain), Some(point)) = (seen.record.trace(STRAIN), seen.record.trace(POINT)) else {
-            continue;
-        };
-        let step = (strain.times.len() / SHOWN).max(1);
-        let thin = |values: Vec<f64>| values.into_iter().step_by(step).collect::<Vec<f64>>();
-        let times = thin(strain.times.clone());
-        if curves.is_empty() {
-            let known = |name: &str, strain: &dyn Fn(f64) -> f64, displacement: &dyn Fn(f64) -> f64| Curve {
-                name: name.into(),
-                lattice: lattice_cells(None),
-                strains: times.iter().map(|&t| strain(t)).collect(),
-                displacements: times.iter().map(|&t| displacement(t)).collect(),
-                times: times.clone(),
-            };
-            let (x, terms) = (release.place, release.terms);
-            curves.push(known("exact", &|t| bar.strain_at(x, t), &|t| bar.displacement_at(x, t)));
-            let strain = |t| bar.fourier_strain(x, t, terms);
-            curves.push(known("fourier", &strain, &|t| bar.fourier_displacement(x, t, terms)));
-        }
-        let lattice = lattice_cells(Some((scene.lattice, scene.spacing)));
-        curves.push(Curve {
-            name: label.clone(),
-            lattice: lattice.clone(),
-            times: times.clone(),
-            strains: thin(strain.column(0)),
-            displacements: thin(point.column(0)),
-        });
-        let Some(modes) = release.bar.modes(scene, None) else { continue };
+    let lattices: Vec<(usize, &Seen)> = seen.iter().enumerate().collect();
+    let marched: Vec<Vec<Curve>> =
+        lattices.into_par_iter().map(|(index, seen)| of_lattice(release, index, seen)).collect();
+    let times = marched.iter().flatten().next().map_or(Vec::new(), |curve| curve.times.clone());
+    let known = |name: &str, strain: &dyn Fn(f64) -> f64, displacement: &dyn Fn(f64) -> f64| Curve {
+        name: name.into(),
+        lattice: lattice_cells(None),
+        strains: times.iter().map(|&t| strain(t)).collect(),
+        displacements: times.iter().map(|&t| displacement(t)).collect(),
+        times: times.clone(),
+    };
+    let (bar, x, terms) = (&release.bar.exact, release.place, release.terms);
+    let exact = known("exact", &|t| bar.strain_at(x, t), &|t| bar.displacement_at(x, t));
+    let series =
+        known("fourier", &|t| bar.fourier_strain(x, t, terms), &|t| bar.fourier_displacement(x, t, terms));
+    [exact, series].into_iter().chain(marched.into_iter().flatten()).collect()
+}
+
+/// What one lattice did, and its modes in exact time where the probe stands on a cell face.
+fn of_lattice(release: &Release, index: usize, seen: &Seen) -> Vec<Curve> {
+    let (Some(strain), Some(point)) = (seen.record.trace(STRAIN), seen.record.trace(POINT)) else {
+        return Vec::new();
+    };
+    let (scene, label) = (&release.scenes[index].0, &release.labels[index]);
+    let step = (strain.times.len() / SHOWN).max(1);
+    let thin = |values: Vec<f64>| values.into_iter().step_by(step).collect::<Vec<f64>>();
+    let times = thin(strain.times.clone());
+    let lattice = lattice_cells(Some((scene.lattice, scene.spacing)));
+    let mut curves = vec![Curve {
+        name: label.clone(),
+        lattice: lattice.clone(),
+        times: times.clone(),
+        strains: thin(strain.column(0)),
+        displacements: thin(point.column(0)),
+    }];
+    let face = release.place / scene.spacing;
+    let inside = face.round() >= 1.0 && face.round() < scene.nodes[0] as f64;
+    if let Some(modes) =
+        release.bar.modes(scene, None).filter(|_| inside && (face - face.round()).abs() < 1e-9)
+    {
         let cells: Vec<f64> = times.iter().map(|&t| release.bar.cell_times(scene, t)).collect();
-        // The probes stand where the march's do only on a cell face; elsewhere the modes are not drawn.
-        let face = release.place / scene.spacing;
-        if (face - face.round()).abs() < 1e-9 && face.round() >= 1.0 {
-            let face = face.round() as usize;
-            let strains = modes.strain_history(face, &cells).iter().map(|e| bar.strain * e).collect();
-            let (left, right) =
-                (modes.displacement_history(face - 1, &cells), modes.displacement_history(face, &cells));
-            let mean = left.iter().zip(&right).map(|(a, b)| 0.5 * (a + b) * release.bar.peak()).collect();
-            let name = format!("lattice_modes: {label}");
-            curves.push(Curve { name, lattice, times, strains, displacements: mean });
-        }
+        let face = face.round() as usize;
+        let strains = modes.strain_history(face, &cells);
+        let ends = [face - 1, face].map(|node| modes.displacement_history(node, &cells));
+        let mean = ends[0].iter().zip(&ends[1]).map(|(a, b)| 0.5 * (a + b) * release.bar.peak());
+        curves.push(Curve {
+            name: format!("lattice_modes: {label}"),
+            lattice,
+            strains: strains.iter().map(|strain| release.bar.exact.strain * strain).collect(),
+            displacements: mean.collect(),
+            times,
+        });
     }
     curves
 }
