@@ -3,7 +3,7 @@
 //! A bond is known by its owner and its index in the half family; each of its ends lists it, so that a node's force is
 //! a sum over its own list in a fixed order, and what one end feels is exactly minus what the other does.
 
-use super::{Class, FamilyBond, Force, Law, Now, Present, apart};
+use super::{Class, FamilyBond, Force, Law, Now, Present, apart, reach_of};
 use crate::grid::Grid;
 
 /// The operator, over the nodes it was given.
@@ -106,8 +106,7 @@ impl<const D: usize, L: Law> Force<D> for BondList<D, L> {
     }
 
     fn reach(&self) -> usize {
-        let offsets = self.family.iter().flat_map(|bond| bond.offset);
-        offsets.map(|n| n.unsigned_abs() as usize).max().unwrap_or(0)
+        reach_of(self.family.iter().copied())
     }
 
     fn add(&self, now: &Now<'_>, piece: usize, sum: &mut [f64]) {

@@ -90,6 +90,12 @@ pub fn family<const D: usize>(stencil: &Stencil<D>, modulus: f64, spacing: f64) 
     stencil.bonds.iter().map(si).collect()
 }
 
+/// How many nodes away the bonds of a family reach along an axis.
+fn reach_of<const D: usize>(family: impl IntoIterator<Item = FamilyBond<D>>) -> usize {
+    let offsets = family.into_iter().flat_map(|bond| bond.offset);
+    offsets.map(|n| n.unsigned_abs() as usize).max().unwrap_or(0)
+}
+
 /// Whether a bond exists: both ends are in the body, or beyond an edge that mirrors or repeats it.
 pub trait Present<const D: usize>: Fn([isize; D], [i32; D]) -> bool {}
 impl<const D: usize, F: Fn([isize; D], [i32; D]) -> bool> Present<D> for F {}

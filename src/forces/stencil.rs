@@ -4,7 +4,7 @@
 //! once that the compiler turns into vector code. Nodes from which bonds are missing, at a free edge, carry a bit for
 //! each bond of their family. Differences are taken before they are summed: a translation gives exactly zero.
 
-use super::{Class, FamilyBond, Force, Law, Now, Present, apart, whole};
+use super::{Class, FamilyBond, Force, Law, Now, Present, apart, reach_of, whole};
 use crate::grid::{Grid, Run};
 
 /// Nodes side by side in the inner loop.
@@ -134,8 +134,7 @@ impl<const D: usize, L: Law> Force<D> for LatticeStencil<D, L> {
     }
 
     fn reach(&self) -> usize {
-        let offsets = self.bonds.iter().flat_map(|(bond, _)| bond.offset);
-        offsets.map(|n| n.unsigned_abs() as usize).max().unwrap_or(0)
+        reach_of(self.bonds.iter().map(|(bond, _)| *bond))
     }
 
     fn add(&self, now: &Now<'_>, piece: usize, sum: &mut [f64]) {

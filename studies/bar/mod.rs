@@ -4,7 +4,7 @@
 pub mod jump;
 pub mod jump_convergence;
 pub mod levels;
-mod names;
+pub mod names;
 pub mod nonlocal;
 pub mod pulse;
 mod pulse_report;

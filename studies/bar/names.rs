@@ -6,6 +6,16 @@ use pd_verify::table::Cell;
 
 /// A name for each lattice, saying only what is not the same for all; the kernel is always said.
 pub fn names(lattices: &[Lattice]) -> Vec<String> {
+    saying(lattices, |part, differs| part == 0 || differs)
+}
+
+/// What is not the same for all lattices, of each; empty where nothing differs.
+pub fn differences(lattices: &[Lattice]) -> Vec<String> {
+    saying(lattices, |_, differs| differs)
+}
+
+/// Kernel, m, volume rule and weights of each lattice, as far as they are to be said.
+fn saying(lattices: &[Lattice], said: impl Fn(usize, bool) -> bool) -> Vec<String> {
     let parts = |lattice: &Lattice| {
         [
             lattice.kernel.to_string(),
@@ -15,10 +25,9 @@ pub fn names(lattices: &[Lattice]) -> Vec<String> {
         ]
     };
     let all: Vec<[String; 4]> = lattices.iter().map(parts).collect();
-    let differs = |part: usize| part == 0 || all.iter().any(|other| other[part] != all[0][part]);
-    let name = |of: &[String; 4]| {
-        (0..4).filter(|&part| differs(part)).map(|part| of[part].as_str()).collect::<Vec<_>>().join(", ")
-    };
+    let differs = |part: usize| all.iter().any(|other| other[part] != all[0][part]);
+    let said: Vec<usize> = (0..4).filter(|&part| said(part, differs(part))).collect();
+    let name = |of: &[String; 4]| said.iter().map(|&part| of[part].as_str()).collect::<Vec<_>>().join(", ");
     all.iter().map(name).collect()
 }
 

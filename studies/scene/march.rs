@@ -11,6 +11,7 @@ use super::march_claims::{claims, evidence, why};
 use super::operators::Twice;
 use super::probe_table::{MAX_ROWS, table};
 use super::probes::{ProbeAsked, WatchName, looks, quantities};
+use crate::bar::names::differences;
 use crate::dispersion::sweep::LatticeSweep;
 use crate::dispersion::words::BodyName;
 use crate::input::{OneOrMany, Refusal};
@@ -157,22 +158,8 @@ impl MarchAsked {
 
 /// A name for each scene: the case's own, or what distinguishes its lattices.
 fn names(lattices: &[Lattice], case: &str) -> Vec<String> {
-    let parts = |lattice: &Lattice| {
-        [
-            lattice.kernel.to_string(),
-            format!("m = {}", lattice.m),
-            lattice.volume_rule.name().to_owned(),
-            if lattice.calibrated { "calibrated" } else { "as printed" }.to_owned(),
-        ]
-    };
-    let all: Vec<[String; 4]> = lattices.iter().map(parts).collect();
-    let differs: Vec<usize> =
-        (0..4).filter(|&part| all.iter().any(|other| other[part] != all[0][part])).collect();
-    let name = |of: &[String; 4]| match differs.is_empty() {
-        true => case.to_owned(),
-        false => differs.iter().map(|&part| of[part].as_str()).collect::<Vec<_>>().join(", "),
-    };
-    all.iter().map(name).collect()
+    let named = |name: String| if name.is_empty() { case.to_owned() } else { name };
+    differences(lattices).into_iter().map(named).collect()
 }
 
 impl Question for March {
