@@ -10,6 +10,7 @@ mod commands;
 mod dispersion;
 mod input;
 mod kind;
+mod levels;
 mod manifest;
 mod output;
 mod progress;

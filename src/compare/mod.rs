@@ -1,6 +1,7 @@
 //! Measured against expected: errors as norms, never signed sums; orders with their sign.
 
 pub mod order;
+pub mod richardson;
 
 /// max |a − b| / |b| over pairs; `None` when there is no pair, NaN when any is not finite.
 pub fn largest_relative(pairs: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {

@@ -31,6 +31,41 @@ pub fn fitted(levels: &[(f64, f64)]) -> Option<ObservedOrder> {
     })
 }
 
+/// The part of a refinement that carries an order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tail {
+    /// (h, error) from coarse to fine: the finest levels whose pairwise orders agree.
+    pub levels: Vec<(f64, f64)>,
+    /// Levels left out because their error is rounding.
+    pub at_floor: usize,
+    /// Levels left out because they are too coarse to show the order of the finer ones.
+    pub too_coarse: usize,
+    /// `None` with fewer than three levels that agree: outside the asymptotic range.
+    pub order: Option<ObservedOrder>,
+}
+
+/// How far pairwise orders of one tail may be apart.
+pub const AGREEMENT: f64 = 0.25;
+
+/// The finest levels above a floor whose pairwise orders lie within [`AGREEMENT`] of the finest pair's. A level that is
+/// not finite ends the tail.
+pub fn tail(levels: &[(f64, f64)], floor: f64) -> Tail {
+    let resolved: Vec<(f64, f64)> =
+        levels.iter().copied().filter(|level| level.1.is_nan() || level.1 > floor).collect();
+    let orders: Vec<Option<f64>> = resolved.windows(2).map(|pair| pairwise(pair[0], pair[1])).collect();
+    let finest = orders.last().copied().flatten();
+    let agrees = |order: &Option<f64>| order.zip(finest).is_some_and(|(a, b)| (a - b).abs() <= AGREEMENT);
+    let agreeing = orders.iter().rev().take_while(|order| agrees(order)).count();
+    let used = if agreeing == 0 { 0 } else { agreeing + 1 };
+    let tail = resolved[resolved.len() - used..].to_vec();
+    Tail {
+        at_floor: levels.len() - resolved.len(),
+        too_coarse: resolved.len() - used,
+        order: if used >= 3 { fitted(&tail) } else { None },
+        levels: tail,
+    }
+}
+
 fn interval(value: f64, residual: f64, spread: f64, levels: usize) -> Option<(f64, f64)> {
     let freedom = levels.checked_sub(2).filter(|&n| n > 0)? as f64;
     let quantile = StudentsT::new(0.0, 1.0, freedom).ok()?.inverse_cdf(0.975);
@@ -61,6 +96,29 @@ mod tests {
         let noisy = fitted(&[(1.0, 1.0), (0.5, 0.3), (0.25, 0.05), (0.125, 0.02)]).unwrap();
         let (low, high) = noisy.interval.unwrap();
         assert!(low < 2.0 && 2.0 < high && high - low > 0.1);
+    }
+
+    #[test]
+    fn a_tail_leaves_out_what_is_coarse_and_what_is_rounding_and_says_so() {
+        let levels =
+            [(32.0, 3.0), (16.0, 2.0), (8.0, 0.64), (4.0, 0.16), (2.0, 0.04), (1.0, 0.01), (0.5, 1e-15)];
+        let found = tail(&levels, 1e-13);
+        assert_eq!((found.levels.len(), found.at_floor, found.too_coarse), (4, 1, 2));
+        assert_relative_eq!(found.order.unwrap().value, 2.0, epsilon = 1e-12);
+        // Of errors 1e-6, 6e-8, 4e-15, 5e-15 two levels are left: no order.
+        let rounding = tail(&[(8.0, 1e-6), (4.0, 6e-8), (2.0, 4e-15), (1.0, 5e-15)], 1e-13);
+        assert_eq!((rounding.at_floor, rounding.order), (2, None));
+    }
+
+    #[test]
+    fn a_tail_of_orders_that_disagree_is_none() {
+        let ragged = [(8.0, 1.0), (4.0, 0.3), (2.0, 0.2), (1.0, 0.02), (0.5, 0.019)];
+        assert_eq!(tail(&ragged, 0.0).order, None);
+        assert_eq!(tail(&[(4.0, 1.0), (2.0, f64::NAN), (1.0, 0.1)], 0.0).order, None);
+        assert_eq!(tail(&[], 0.0).order, None);
+        // A wrong order is an order: it is not hidden as inconclusive.
+        let first = [(8.0, 0.8), (4.0, 0.4), (2.0, 0.2), (1.0, 0.1)];
+        assert_relative_eq!(tail(&first, 0.0).order.unwrap().value, 1.0, epsilon = 1e-12);
     }
 
     #[test]

@@ -4,7 +4,7 @@ mod edges;
 mod prescribed;
 
 pub use edges::{Edge, Edges};
-pub use prescribed::PrescribedMotion;
+pub use prescribed::{HeldFrame, PrescribedMotion};
 
 /// A condition on the motion of some nodes.
 pub trait Constraint<const D: usize>: Send + Sync {

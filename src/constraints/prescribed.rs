@@ -1,7 +1,7 @@
 //! Nodes that move as prescribed: a displacement times a history.
 
 use super::Constraint;
-use crate::scene::{Acts, Axis, Effect, History, HistoryAsked, Region, Setting, Wrong};
+use crate::scene::{Acts, Axis, Effect, History, HistoryAsked, Initial, Region, Setting, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -29,15 +29,52 @@ impl<const D: usize> Effect<D> for PrescribedMotion {
         let nodes = self.region.nodes(setting.grid).map_err(|wrong| wrong.inside("region"))?;
         let history = self.history.check().map_err(|wrong| wrong.inside("history"))?;
         let component = self.axis.index::<D>()? * setting.grid.stride();
-        let places = nodes.iter().map(|node| setting.grid.place(*node) + component).collect();
-        Ok(Acts::Constraint(Box::new(Driven { places, displacement: self.displacement_m, history })))
+        let places: Vec<usize> = nodes.iter().map(|node| setting.grid.place(*node) + component).collect();
+        let displacements = vec![self.displacement_m; places.len()];
+        Ok(Acts::Constraint(Box::new(Driven { places, displacements, history })))
+    }
+}
+
+/// Nodes along all edges held at a field in m: the volume constraint of nonlocal theory. Not a word of study files.
+#[derive(Debug, Clone)]
+pub struct HeldFrame<const D: usize> {
+    /// Layers of nodes from each edge.
+    pub layers: usize,
+    /// Summed; a component without a field is held at 0.
+    pub fields: Vec<Initial<D>>,
+}
+
+impl<const D: usize> Effect<D> for HeldFrame<D> {
+    fn name(&self) -> String {
+        "prescribed motion".into()
+    }
+
+    fn act(&self, setting: &Setting<'_, D>) -> Result<Acts<D>, Wrong> {
+        let grid = setting.grid;
+        let depth = |node: [isize; D]| {
+            let from_edge = |axis: usize| node[axis].min(grid.nodes[axis] as isize - 1 - node[axis]);
+            (0..D).map(from_edge).min().unwrap_or(0)
+        };
+        let held: Vec<_> = grid.each().filter(|node| depth(*node) < self.layers as isize).collect();
+        let (mut places, mut displacements) = (Vec::new(), Vec::new());
+        for component in 0..D {
+            let of = |node| {
+                let mine = self.fields.iter().filter(|field| field.component == component);
+                mine.map(|field| field.at(grid.position(node))).sum::<f64>()
+            };
+            places.extend(held.iter().map(|node| grid.place(*node) + component * grid.stride()));
+            displacements.extend(held.iter().map(|node| of(*node)));
+        }
+        let history = History::Step { start: 0.0 };
+        Ok(Acts::Constraint(Box::new(Driven { places, displacements, history })))
     }
 }
 
 /// A motion as it acts.
 struct Driven {
     places: Vec<usize>,
-    displacement: f64,
+    /// In m, of each place.
+    displacements: Vec<f64>,
     history: History,
 }
 
@@ -51,9 +88,9 @@ impl<const D: usize> Constraint<D> for Driven {
     }
 
     fn hold(&self, next: f64, displacement: &[f64], increment: &mut [f64]) {
-        let target = self.displacement * self.history.at(next);
-        for &place in &self.places {
-            increment[place] = target - displacement[place];
+        let factor = self.history.at(next);
+        for (&place, target) in self.places.iter().zip(&self.displacements) {
+            increment[place] = target * factor - displacement[place];
         }
     }
 }

@@ -5,7 +5,7 @@
 use super::{Class, Force, Now};
 use crate::constraints::Edge;
 use crate::grid::Grid;
-use crate::scene::{Acts, Axis, Effect, History, HistoryAsked, Region, Setting, Side, Wrong};
+use crate::scene::{Acts, Axis, Effect, History, HistoryAsked, Initial, Region, Setting, Side, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -76,6 +76,61 @@ fn finite(key: &str, value: f64) -> Result<(), Wrong> {
         return Ok(());
     }
     Err(Wrong::new(key, format!("{value} is no load"), "give a finite number"))
+}
+
+/// A body force that differs from node to node: fields in N/m³, summed over all nodes. Not a word of study files.
+#[derive(Debug, Clone)]
+pub struct ForceField<const D: usize> {
+    pub fields: Vec<Initial<D>>,
+    pub history: History,
+}
+
+impl<const D: usize> Effect<D> for ForceField<D> {
+    fn name(&self) -> String {
+        "body force".into()
+    }
+
+    fn act(&self, setting: &Setting<'_, D>) -> Result<Acts<D>, Wrong> {
+        Ok(Acts::Force(Box::new(FieldLoad::new(setting.grid, &self.fields, self.history.clone()))))
+    }
+}
+
+/// A force field as it acts.
+struct FieldLoad {
+    /// By piece, in the order of the force field, in N/m³.
+    densities: Vec<Vec<f64>>,
+    history: History,
+}
+
+impl FieldLoad {
+    fn new<const D: usize>(grid: &Grid<D>, fields: &[Initial<D>], history: History) -> Self {
+        let mut whole = grid.field();
+        for field in fields {
+            for node in grid.each() {
+                whole[grid.place(node) + field.component * grid.stride()] += field.at(grid.position(node));
+            }
+        }
+        Self { densities: whole[grid.body()].chunks(grid.piece()).map(<[f64]>::to_vec).collect(), history }
+    }
+}
+
+impl<const D: usize> Force<D> for FieldLoad {
+    fn name(&self) -> String {
+        "body force".into()
+    }
+
+    fn class(&self) -> Class {
+        Class::Load
+    }
+
+    fn add(&self, now: &Now<'_>, piece: usize, sum: &mut [f64]) {
+        let factor = self.history.over_step(now.time, now.time_step);
+        sum.iter_mut().zip(&self.densities[piece]).for_each(|(sum, density)| *sum += factor * density);
+    }
+
+    fn bytes(&self) -> usize {
+        self.densities.iter().map(|densities| 8 * densities.len()).sum()
+    }
 }
 
 /// A load as it acts.

@@ -13,7 +13,7 @@ pub mod surface;
 pub use bond_list::BondList;
 pub use damping::{Damper, Damping};
 pub use law::{Direction, Finite, Law, Small};
-pub use load::{BodyForce, Load, Traction};
+pub use load::{BodyForce, ForceField, Load, Traction};
 pub use stencil::LatticeStencil;
 
 use crate::grid::Grid;

@@ -1,4 +1,4 @@
-//! Displacements or velocities at t = 0: sums of a few shapes, each with its exact counterpart in the reference.
+//! Fields over a body, as sums of a few shapes: displacements or velocities at t = 0, body forces, held displacements.
 
 use super::Axis;
 use schemars::JsonSchema;
@@ -25,6 +25,8 @@ pub enum Shape<const D: usize> {
     Gaussian { centre: [f64; D], sharpness: f64 },
     /// cos(k·x + φ), k in rad/m.
     Wave { wavenumber: [f64; D], phase: f64 },
+    /// Π (x_a − about_a)^power_a, in m to the sum of the powers: the amplitude is a strain, a curvature and so on.
+    Monomial { about: [f64; D], powers: [u8; D] },
 }
 
 impl<const D: usize> Initial<D> {
@@ -39,6 +41,9 @@ impl<const D: usize> Initial<D> {
                 libm::exp(-sharpness * squares)
             }
             Shape::Wave { wavenumber, phase } => libm::cos(dot(wavenumber) + phase),
+            Shape::Monomial { about, powers } => {
+                (0..D).map(|axis| (x[axis] - about[axis]).powi(i32::from(powers[axis]))).product()
+            }
         };
         self.amplitude * shape
     }

@@ -5,10 +5,10 @@
 //! lattice. A lattice of the wrong long-wave speed tends to the error of a square wave of that speed.
 
 use super::jump;
-use super::levels::{order_of, pairwise, refining};
 use super::names::{LATTICE, lattice_cells, names, slug};
 use super::released::{BarAsked, LINE, Released, STRAIN, marching, planned, whole_bar};
 use crate::dispersion::sweep::LatticeSweep;
+use crate::levels::{order_of, pairwise, refining};
 use crate::question::{Answer, Claiming, Place, Planned, Question, claim, error_of, value_of};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};

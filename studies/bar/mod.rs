@@ -3,7 +3,6 @@
 
 pub mod jump;
 pub mod jump_convergence;
-pub mod levels;
 pub mod names;
 pub mod nonlocal;
 pub mod pulse;

@@ -1,6 +1,5 @@
 //! `asks = "nonlocal_pulse"`: a pulse on a periodic bar at a fixed horizon, m → ∞, against the nonlocal continuum.
 
-use super::levels::{self, Sequence, refining, relative};
 use super::pulsed::{Marched, PlainBarAsked, PulseShapeAsked, Pulsed, material};
 use super::ring::Ring;
 use crate::dispersion::curve::{reference_kernel, reference_lattice};
@@ -8,6 +7,7 @@ use crate::dispersion::m_convergence;
 use crate::dispersion::sweep::{check_usable, kernels};
 use crate::dispersion::words::{KernelName, VolumeRuleName};
 use crate::input::OneOrMany;
+use crate::levels::{self, Sequence, refining, relative};
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
@@ -168,7 +168,7 @@ continuum: (ωδ/v)² = (2/M₁) ∫₀¹ W(s)(1 − cos kδs)/s ds; lattice: (2
             Ok(seen) => seen,
             Err(failure) => return Answer::failed(&self.claims(place), &failure),
         };
-        let mut table = levels::table();
+        let mut table = levels::table("bar_convergence.csv");
         let marches = format!("{} marches", self.scenes().len());
         let modes = error_of(largest(seen.iter().map(|(_, far)| *far)), marches);
         let mut evidence = vec![("modes".into(), modes)];

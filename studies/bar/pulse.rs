@@ -1,12 +1,12 @@
 //! `asks = "pulse"`: a smooth pulse between a fixed and a free end, refined at a fixed m, against d'Alembert's solution;
 //! and its time step refined, against the exact motion of the lattice.
 
-use super::levels::{self, Errors, Sequence, furthest, refining, relative};
 use super::names::names;
 use super::pulse_report;
 use super::pulsed::{Marched, PlainBarAsked, PulseShapeAsked, Pulsed, material};
 use crate::dispersion::curve::reference_lattice;
 use crate::dispersion::sweep::LatticeSweep;
+use crate::levels::{self, Errors, Sequence, furthest, refining, relative};
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};

@@ -1,8 +1,8 @@
 //! Tables and figures of a refined pulse: errors by horizon and by time step, and the pulse beside the exact one.
 
-use super::levels;
 use super::names::{LATTICE, lattice_cells};
 use super::pulse::{FLOOR, Pulse, Refinement, Seen};
+use crate::levels;
 use crate::question::Place;
 use pd_verify::report::plot::{Axis, Colour, Figure, Guide, Lines, Marker, Series};
 use pd_verify::table::{Cell, Table};
@@ -13,7 +13,7 @@ const DRAWN: usize = 7;
 const L2: usize = 1;
 
 pub fn tables(pulse: &Pulse, seen: &[Seen], place: &Place) -> Vec<Table> {
-    let mut by_spacing = levels::table();
+    let mut by_spacing = levels::table("bar_convergence.csv");
     let own = ["time_step_s", "time_step_over_limit", "norm", "error", "pairwise_order"];
     let mut by_step = Table::new("bar_time_steps.csv", &[&["case"][..], &LATTICE, &own].concat());
     for (one, seen) in pulse.refinements.iter().zip(seen) {

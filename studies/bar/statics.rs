@@ -1,7 +1,6 @@
 //! `asks = "statics"`: a bar at rest. Uniform strain is kept; free ends are softer than the bulk; a surface correction
 //! changes that. Against an independent solution of the same lattice.
 
-use super::levels::{furthest, order_of, refining};
 use super::names::names;
 use super::pulsed::{PlainBarAsked, material};
 use super::released::LINE;
@@ -10,6 +9,7 @@ use super::stretched::{Ends, Pulled, middle_modulus, recovered_modulus};
 use crate::dispersion::curve::reference_lattice;
 use crate::dispersion::sweep::{LatticeSweep, distinct};
 use crate::input::{OneOrMany, one_or_many};
+use crate::levels::{furthest, order_of, refining};
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};

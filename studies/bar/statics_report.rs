@@ -1,9 +1,9 @@
 //! Tables and figures of bars at rest: recovered moduli by m and by δ, the strain near an end, and which correction is best.
 
-use super::levels;
 use super::names::{LATTICE, lattice_cells};
 use super::statics::{Bulk, Rested, Statics};
 use crate::dispersion::sweep::distinct;
+use crate::levels;
 use crate::question::Place;
 use pd_verify::forces::surface::Correction;
 use pd_verify::kernel::Kernel;

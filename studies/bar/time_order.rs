@@ -1,9 +1,9 @@
 //! `asks = "time_order"`: the march against the lattice's own modes, in exact time and as leapfrog carries them, over Δt.
 
-use super::levels::{order_of, pairwise, refining};
 use super::names::{LATTICE, lattice_cells, names, slug};
 use super::released::{BarAsked, LINE, Released, planned, whole_bar};
 use crate::dispersion::sweep::LatticeSweep;
+use crate::levels::{order_of, pairwise, refining};
 use crate::question::{Answer, Claiming, Place, Planned, Question, claim, error_of};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};

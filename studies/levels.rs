@@ -1,4 +1,4 @@
-//! Levels of a refinement: errors in three norms, the order at which they fall, and their rows in `bar_convergence.csv`.
+//! Levels of a refinement: errors in three norms, the order at which they fall, and their rows in a table.
 
 use pd_verify::compare::order;
 use pd_verify::lattice::Lattice;
@@ -73,8 +73,8 @@ pub fn furthest(all: impl IntoIterator<Item = Evidence>) -> Option<Evidence> {
     all.into_iter().max_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
-/// The table that δ- and m-convergence share.
-pub fn table() -> Table {
+/// A table of errors by sequence and level.
+pub fn table(name: &str) -> Table {
     let columns = [
         "sequence",
         "case",
@@ -89,7 +89,7 @@ pub fn table() -> Table {
         "error",
         "pairwise_order",
     ];
-    Table::new("bar_convergence.csv", &columns)
+    Table::new(name, &columns)
 }
 
 /// Adds the rows of one refinement; `at` gives the lattice and Δx of a level.
