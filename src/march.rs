@@ -4,9 +4,22 @@
 //! with d = Δt v₀ − ½Δt² a₀ half a step before t = 0, it is second order from the first step on.
 
 use crate::forces::Now;
+use crate::grid::Grid;
 use crate::ledger::Ledger;
 use crate::model::{Inertia, Model};
 use crate::scene::{Initial, Scene};
+
+/// The sum of initial fields, `scale` times, as a field of the grid.
+pub(crate) fn initial<const D: usize>(grid: &Grid<D>, fields: &[Initial<D>], scale: f64) -> Vec<f64> {
+    let mut values = grid.field();
+    for initial in fields {
+        for node in grid.each() {
+            let place = grid.place(node) + initial.component * grid.stride();
+            values[place] += scale * initial.at(grid.position(node));
+        }
+    }
+    values
+}
 
 /// A body in motion.
 pub struct March<'m, const D: usize> {
@@ -22,17 +35,8 @@ pub struct March<'m, const D: usize> {
 impl<'m, const D: usize> March<'m, D> {
     /// The body at t = 0, from the scene's initial fields.
     pub fn new(model: &'m Model<D>, scene: &Scene<D>, time_step: f64) -> Self {
-        let start = |fields: &[Initial<D>], scale: f64| {
-            let mut values = model.grid.field();
-            for initial in fields {
-                for node in model.grid.each() {
-                    let place = model.grid.place(node) + initial.component * model.grid.stride();
-                    values[place] += scale * initial.at(model.grid.position(node));
-                }
-            }
-            values
-        };
-        let (displacement, increment) = (start(&scene.displacement, 1.0), start(&scene.velocity, time_step));
+        let displacement = initial(&model.grid, &scene.displacement, 1.0);
+        let increment = initial(&model.grid, &scene.velocity, time_step);
         Self::from_fields(model, displacement, increment, time_step)
     }
 
@@ -82,6 +86,28 @@ impl<'m, const D: usize> March<'m, D> {
     /// u(n) − u(n−1) in m.
     pub fn increment(&self) -> &[f64] {
         &self.increment
+    }
+
+    /// The velocity in m/s at the present time, (u(n+1) − u(n−1))/2Δt, by a trial of the next step that changes nothing.
+    /// There is no step before the first: the velocity at t = 0 is the one given as `start`, and nodes that are driven
+    /// take that of the step which they begin.
+    pub fn velocity(&self, start: Option<Vec<f64>>) -> Vec<f64> {
+        let (model, time_step) = (self.model, self.time_step);
+        let (mut force, mut next) = (model.grid.field(), self.increment.clone());
+        model.force(&self.now(), &mut force);
+        accelerate(model, time_step * time_step, &force, &mut next);
+        let time = (self.step + 1) as f64 * time_step;
+        model.constraints.iter().for_each(|constraint| constraint.hold(time, &self.displacement, &mut next));
+        let Some(mut velocity) = start else {
+            return next
+                .iter()
+                .zip(&self.increment)
+                .map(|(next, last)| (next + last) / (2.0 * time_step))
+                .collect();
+        };
+        let driven = model.constraints.iter().flat_map(|constraint| constraint.places());
+        driven.for_each(|&place| velocity[place] = next[place] / time_step);
+        velocity
     }
 
     /// The model that moves.

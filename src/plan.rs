@@ -8,7 +8,7 @@ use crate::forces::{BondList, Class, Finite, LatticeStencil, Law, Small, family}
 use crate::grid::Grid;
 use crate::lattice::{Stencil, Unusable};
 use crate::model::surface_factors;
-use crate::scene::{Acts, Operator, Rotations, Scene, Setting, StepRule, Watch, Wrong};
+use crate::scene::{Acts, Operator, Rotations, Scene, Setting, StepRule, Watch, Wrong, snapshot};
 use serde::Serialize;
 use std::collections::HashSet;
 
@@ -24,6 +24,8 @@ pub struct Plan {
     pub bonds: u64,
     /// State, force and what operators and loads keep.
     pub bytes_per_node: f64,
+    /// What the snapshots of the whole body hold.
+    pub snapshot_bytes: u64,
     pub time_step_s: f64,
     /// Above 1 leapfrog is unstable.
     pub time_step_over_limit: f64,
@@ -73,6 +75,7 @@ impl Plan {
             nodes,
             bonds: ends / 2,
             bytes_per_node: bytes as f64 / nodes as f64,
+            snapshot_bytes: snapshot::bytes(scene, time_step, steps)?,
             time_step_s: time_step,
             time_step_over_limit: over_limit,
             steps,

@@ -51,6 +51,7 @@ fn bar(operator: Operator) -> Scene<1> {
             Probe { name: "all".into(), watch: Watch::Line { along: 0, through: 0.0 }, every: 7 },
             Probe { name: "energy".into(), watch: Watch::Energies, every: 1 },
         ],
+        snapshots: vec![],
     }
 }
 

@@ -30,6 +30,7 @@ pub mod front;
 pub mod lattice;
 pub mod lattice_modes;
 pub mod leapfrog;
+pub mod medium;
 pub mod micromodulus;
 pub mod nonlocal_pulse;
 pub mod oracles;
@@ -47,6 +48,7 @@ mod quadrature;
 
 pub use bonds::{Lattice, VolumeRule};
 pub use kernel::Kernel;
+pub use medium::Medium;
 
 /// Which of the two plane waves of the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

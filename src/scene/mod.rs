@@ -10,6 +10,7 @@ mod notch;
 mod place;
 mod positive;
 mod probe;
+pub(crate) mod snapshot;
 mod time;
 mod wrong;
 
@@ -20,6 +21,7 @@ pub use notch::{Notch, NotchAsked};
 pub use place::{Axis, Region, Side};
 pub use positive::Positive;
 pub use probe::{Probe, Watch};
+pub use snapshot::Snapshots;
 pub use time::{StepRule, Time};
 pub use wrong::Wrong;
 
@@ -82,6 +84,8 @@ pub struct Scene<const D: usize> {
     pub effects: Vec<Arc<dyn Effect<D>>>,
     pub time: Time,
     pub probes: Vec<Probe<D>>,
+    /// The whole body at chosen times.
+    pub snapshots: Vec<Snapshots>,
 }
 
 impl<const D: usize> Scene<D> {
@@ -113,6 +117,7 @@ impl<const D: usize> Scene<D> {
             effects: Vec::new(),
             time,
             probes: Vec::new(),
+            snapshots: Vec::new(),
         }
     }
 

@@ -141,6 +141,7 @@ mod tests {
                 nodes: 1000,
                 bonds: 3000,
                 bytes_per_node: 48.0,
+                snapshot_bytes: 0,
                 time_step_s: 1e-7,
                 time_step_over_limit: 0.9,
                 steps: 2000,

@@ -143,6 +143,7 @@ mod tests {
             nodes: 1000,
             bonds: 3000,
             bytes_per_node: 56.0,
+            snapshot_bytes: 0,
             time_step_s: 1.25e-7,
             time_step_over_limit: 0.9,
             steps: 4000,

@@ -66,6 +66,7 @@ pub fn scene<const D: usize>(
         effects: effects.to_vec(),
         time: time(asked.duration_s, asked.safety, asked.time_step_s, asked.unstable)?,
         probes: Vec::new(),
+        snapshots: Vec::new(),
     };
     for (index, probe) in asked.probe.iter().enumerate() {
         let probe = probe.check(scene.size()).map_err(|wrong| wrong.inside(&format!("probe[{index}]")));

@@ -57,6 +57,7 @@ pub fn scene<const D: usize>(lattice: Lattice, nodes: [usize; D]) -> Scene<D> {
         effects: vec![],
         time: Time { duration: 1e-4, step: StepRule::OfLimit(0.9) },
         probes: vec![],
+        snapshots: vec![],
     }
 }
 

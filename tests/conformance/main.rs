@@ -9,6 +9,7 @@ mod motion;
 mod notched;
 mod probes;
 mod refused;
+mod snapshots;
 mod wrong;
 
 use bodies::{cases, constant, force, model, places, scene};

@@ -1,118 +1,20 @@
-//! A run from a scene to what its probes saw: plan, model, march to the next look, look.
+//! What a probe sees of a body: displacements and strains between nodes, momentum, the ledger's accounts.
 
+use super::{Column, Trace};
 use crate::constraints::{Edge, Edges};
 use crate::grid::Grid;
 use crate::ledger::Ledger;
 use crate::march::March;
-use crate::model::{Inertia, Model};
-use crate::plan::Plan;
-use crate::scene::{Probe, Scene, Watch, Wrong};
-use thiserror::Error;
-
-/// What the probes of a scene saw.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Record {
-    pub plan: Plan,
-    pub traces: Vec<Trace>,
-}
-
-impl Record {
-    /// The trace of a probe.
-    pub fn trace(&self, probe: &str) -> Option<&Trace> {
-        self.traces.iter().find(|trace| trace.probe == probe)
-    }
-}
-
-/// What one probe saw.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Trace {
-    pub probe: String,
-    pub columns: Vec<Column>,
-    /// In s.
-    pub times: Vec<f64>,
-    /// One row for each time, one value for each column.
-    pub rows: Vec<Vec<f64>>,
-}
-
-impl Trace {
-    /// One column over time.
-    pub fn column(&self, index: usize) -> Vec<f64> {
-        self.rows.iter().map(|row| row[index]).collect()
-    }
-}
-
-/// A quantity at a place.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Column {
-    pub quantity: &'static str,
-    pub unit: &'static str,
-    /// In m; `None` for quantities of the whole body.
-    pub at: Option<Vec<f64>>,
-}
-
-/// Why a run has no record.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Failure {
-    /// The scene cannot be run.
-    #[error("{}", .0.message)]
-    Wrong(Wrong),
-    /// A displacement is no longer a number.
-    #[error(
-        "\"{scene}\" grew without bound: no longer finite at step {step}, t = {time:e} s, with Δt = {over_limit:.3} of the limit"
-    )]
-    Diverged { scene: String, step: u64, time: f64, over_limit: f64 },
-}
-
-/// Steps between two looks at whether all is finite.
-const WATCHED: u64 = 1000;
-
-/// Runs a scene from beginning to end.
-pub fn run<const D: usize>(scene: &Scene<D>) -> Result<Record, Failure> {
-    let plan = Plan::of(scene).map_err(Failure::Wrong)?;
-    let model = Model::new(scene).map_err(Failure::Wrong)?;
-    march(scene, plan, &model)
-}
-
-/// Runs a scene on a model made for it.
-pub fn march<const D: usize>(scene: &Scene<D>, plan: Plan, model: &Model<D>) -> Result<Record, Failure> {
-    let mut march = March::new(model, scene, plan.time_step_s);
-    let booked = scene.probes.iter().any(|probe| probe.watch == Watch::Energies);
-    let mut ledger = booked.then(|| Ledger::new(model));
-    let mut traces: Vec<Trace> = scene.probes.iter().map(|probe| trace(probe, &model.grid)).collect();
-    loop {
-        let step = march.step();
-        for (probe, trace) in scene.probes.iter().zip(&mut traces) {
-            if step.is_multiple_of(probe.every) || step == plan.steps {
-                look(probe, &march, trace);
-            }
-        }
-        if step >= plan.steps {
-            return Ok(Record { plan, traces });
-        }
-        let due = scene.probes.iter().map(|probe| (step / probe.every + 1) * probe.every);
-        let next = due.chain([plan.steps, step + WATCHED]).min().unwrap_or(plan.steps).min(plan.steps);
-        match &mut ledger {
-            None => march.advance_to(next),
-            Some(ledger) => {
-                for _ in step..next {
-                    march.advance_booked(ledger);
-                    book(&scene.probes, &march, ledger, &mut traces);
-                }
-            }
-        }
-        if !march.is_finite() {
-            return Err(Failure::Diverged {
-                scene: plan.name,
-                step: march.step(),
-                time: march.time(),
-                over_limit: plan.time_step_over_limit,
-            });
-        }
-    }
-}
+use crate::model::Inertia;
+use crate::scene::{Probe, Watch};
 
 /// Energies of the half step just done, for the probes that asked at its beginning.
-fn book<const D: usize>(probes: &[Probe<D>], march: &March<'_, D>, ledger: &Ledger<D>, traces: &mut [Trace]) {
+pub(super) fn book<const D: usize>(
+    probes: &[Probe<D>],
+    march: &March<'_, D>,
+    ledger: &Ledger<D>,
+    traces: &mut [Trace],
+) {
     let began = march.step() - 1;
     for (probe, trace) in probes.iter().zip(traces) {
         if probe.watch == Watch::Energies && began.is_multiple_of(probe.every) {
@@ -130,7 +32,7 @@ fn book<const D: usize>(probes: &[Probe<D>], march: &March<'_, D>, ledger: &Ledg
 }
 
 /// An empty trace with its columns.
-fn trace<const D: usize>(probe: &Probe<D>, grid: &Grid<D>) -> Trace {
+pub(super) fn trace<const D: usize>(probe: &Probe<D>, grid: &Grid<D>) -> Trace {
     let components = ["displacement_x", "displacement_y"];
     let displacement = |at: [f64; D]| {
         (0..D).map(move |c| Column { quantity: components[c], unit: "m", at: Some(at.to_vec()) })
@@ -152,7 +54,7 @@ fn trace<const D: usize>(probe: &Probe<D>, grid: &Grid<D>) -> Trace {
 }
 
 /// Looks at the body now; what belongs to half steps is seen where it is known.
-fn look<const D: usize>(probe: &Probe<D>, march: &March<'_, D>, trace: &mut Trace) {
+pub(super) fn look<const D: usize>(probe: &Probe<D>, march: &March<'_, D>, trace: &mut Trace) {
     let (grid, edges, u) = (&march.model().grid, &march.model().edges, march.displacement());
     let half = 0.5 * march.time_step();
     let (time, row) = match probe.watch {
