@@ -3,7 +3,7 @@
 use crate::input::{Refusal, nearest};
 use crate::question::Question;
 use crate::written::{Word, Written};
-use crate::{bar, dispersion, scene};
+use crate::{bar, convergence, dispersion, scene};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -15,18 +15,21 @@ pub enum Kind {
     Dispersion,
     /// Bars marched in time, held against exact answers.
     Bar,
+    /// How errors fall with the horizon, the spacing, or both.
+    Convergence,
     /// A scene of one's own, marched in time.
     Scene,
 }
 
 impl Kind {
-    pub const ALL: [Self; 3] = [Self::Dispersion, Self::Bar, Self::Scene];
+    pub const ALL: [Self; 4] = [Self::Dispersion, Self::Bar, Self::Convergence, Self::Scene];
 
     /// The word in study files; also the command and the folder of the shipped studies.
     pub fn word(self) -> &'static str {
         match self {
             Self::Dispersion => "dispersion",
             Self::Bar => "bar",
+            Self::Convergence => "convergence",
             Self::Scene => "scene",
         }
     }
@@ -36,6 +39,7 @@ impl Kind {
         match self {
             Self::Dispersion => dispersion::WORDS,
             Self::Bar => bar::WORDS,
+            Self::Convergence => convergence::WORDS,
             Self::Scene => scene::WORDS,
         }
     }
@@ -45,6 +49,7 @@ impl Kind {
         match self {
             Self::Dispersion => dispersion::TABLES,
             Self::Bar => bar::TABLES,
+            Self::Convergence => convergence::TABLES,
             Self::Scene => scene::TABLES,
         }
     }
@@ -54,6 +59,7 @@ impl Kind {
         match self {
             Self::Dispersion => dispersion::SUFFIXES,
             Self::Bar => bar::SUFFIXES,
+            Self::Convergence => convergence::SUFFIXES,
             Self::Scene => &[],
         }
     }

@@ -67,6 +67,33 @@ pub fn order_of(name: &str, levels: &[(f64, f64)], expected: f64, floor: f64) ->
     }
 }
 
+/// The observed order of the finest levels whose pairwise orders agree; inconclusive where fewer than three do.
+pub fn tail_order(name: &str, levels: &[(f64, f64)], expected: f64, floor: f64) -> Evidence {
+    let tail = order::tail(levels, floor);
+    let mut note = format!("{name}: the {} finest levels", tail.levels.len());
+    if tail.too_coarse > 0 {
+        note += &format!(", {} coarser ones left out", tail.too_coarse);
+    }
+    if tail.at_floor > 0 {
+        note += &format!(", {} at the round-off floor of {floor:e} left out", tail.at_floor);
+    }
+    let broken = levels.iter().any(|level| !level.1.is_finite());
+    let pairs = levels.windows(2).map(|pair| order::pairwise(pair[0], pair[1]).unwrap_or(f64::NAN));
+    let outside = (tail.order.is_none() && !broken).then(|| {
+        let listed: Vec<String> = pairs.map(|order| format!("{order:.2}")).collect();
+        format!("outside the asymptotic range: pairwise orders {}", listed.join(", "))
+    });
+    Evidence {
+        computed: tail.order.map(|order| order.value),
+        reference: Some(expected),
+        error: tail.order.map(|order| (order.value - expected).abs()),
+        order: tail.order,
+        outside,
+        note,
+        ..Evidence::default()
+    }
+}
+
 /// The evidence that is furthest from what is expected; one without a number is further than any.
 pub fn furthest(all: impl IntoIterator<Item = Evidence>) -> Option<Evidence> {
     let far = |evidence: &Evidence| evidence.error.filter(|error| !error.is_nan()).unwrap_or(f64::INFINITY);

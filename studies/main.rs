@@ -7,6 +7,7 @@ mod bar;
 mod bibliography;
 mod cli;
 mod commands;
+mod convergence;
 mod dispersion;
 mod input;
 mod kind;

@@ -128,6 +128,24 @@ pub trait Question: Send + Sync {
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer;
 }
 
+impl Question for Box<dyn Question> {
+    fn claims(&self, place: &Place) -> Vec<Claim> {
+        (**self).claims(place)
+    }
+    fn scenes(&self) -> Vec<Planned> {
+        (**self).scenes()
+    }
+    fn effort(&self) -> Effort {
+        (**self).effort()
+    }
+    fn equations(&self) -> &'static str {
+        (**self).equations()
+    }
+    fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
+        (**self).answer(subject, place)
+    }
+}
+
 /// Starts a claim; the name is unique within the case.
 pub fn claim(place: &Place, name: &str, quantity: impl Into<String>) -> Claim {
     Claim {

@@ -123,9 +123,12 @@ pub trait Subject: Sync {
 
     /// Displacements in m of a bar's nodes at rest under the loads of t = 0.
     fn rest_bar(&self, scene: &Scene<1>) -> Result<Vec<f64>, String> {
-        let model = Model::new(scene).map_err(|wrong| wrong.message)?;
-        let rest = statics::rest(&model, 1e-14, 100 * model.grid.count()).map_err(|none| none.to_string())?;
-        Ok(model.grid.each().map(|node| rest.displacement[model.grid.place(node)]).collect())
+        Ok(rest(scene)?.into_iter().map(|[u]| u).collect())
+    }
+
+    /// Displacements in m of a plate's nodes at rest under the loads of t = 0, row by row.
+    fn rest_plate(&self, scene: &Scene<2>) -> Result<Vec<[f64; 2]>, String> {
+        rest(scene)
     }
 
     /// The published Fourier series of a released bar's displacement.
@@ -137,6 +140,18 @@ pub trait Subject: Sync {
     fn reflection(&self, left: &Chain, right: &Chain, theta: f64) -> Option<Complex<f64>> {
         joint::exact(left, right, theta)
     }
+}
+
+/// Displacements of the nodes at rest.
+fn rest<const D: usize>(scene: &Scene<D>) -> Result<Vec<[f64; D]>, String> {
+    let model = Model::new(scene).map_err(|wrong| wrong.message)?;
+    let most = 100 * scene.nodes.iter().sum::<usize>().max(1000);
+    let rest = statics::rest(&model, 1e-14, most).map_err(|none| none.to_string())?;
+    let at = |node| {
+        let place = model.grid.place(node);
+        std::array::from_fn(|axis| rest.displacement[place + axis * model.grid.stride()])
+    };
+    Ok(model.grid.each().map(at).collect())
 }
 
 /// This library as it is.

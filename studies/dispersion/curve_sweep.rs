@@ -115,8 +115,8 @@ impl CurveSweep {
         }
         let branches = self.branch.clone().map_or(vec![BranchName::P, BranchName::S], |list| list.0);
         let angles = self.angle_deg.clone().map_or(vec![0.0], |list| list.0);
-        let branch = |name| if name == BranchName::P { Branch::P } else { Branch::S };
-        branches.iter().flat_map(|&name| angles.iter().map(move |&angle| (branch(name), angle))).collect()
+
+        branches.iter().flat_map(|&name| angles.iter().map(move |&angle| (name.into(), angle))).collect()
     }
 
     fn media(&self, scheme: SchemeName, body: Body) -> Result<Vec<Medium>, Wrong> {

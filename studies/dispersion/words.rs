@@ -1,5 +1,6 @@
 //! The words of study files: bodies, kernels, volume rules, schemes, branches.
 
+use pd_verify::dispersion::Branch;
 use pd_verify::material::Body;
 use pd_verify::partial_volume::VolumeRule;
 use schemars::JsonSchema;
@@ -93,4 +94,13 @@ impl SchemeName {
 pub enum BranchName {
     P,
     S,
+}
+
+impl From<BranchName> for Branch {
+    fn from(name: BranchName) -> Self {
+        match name {
+            BranchName::P => Self::P,
+            BranchName::S => Self::S,
+        }
+    }
 }

@@ -1,0 +1,345 @@
+//! A problem solved level by level: errors in three norms, the order at which they fall, the plateau that wrong moduli
+//! leave, and the lattice's own answer. Every question of this kind that has an exact answer is asked here.
+
+use super::path::{Level, Refine, Sequence};
+use super::refined_report as report;
+use super::space::{In, Space};
+use super::theory::{self, Expected};
+use crate::bar::names;
+use crate::levels::{self, Errors, NORMS, furthest, tail_order};
+use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of};
+use crate::subject::Subject;
+use pd_verify::claim::{Basis, Claim, ErrorKind};
+use pd_verify::compare::largest;
+use pd_verify::compare::order::pairwise;
+use pd_verify::scene::Wrong;
+use pd_verify::verdict::Evidence;
+use pd_verify_reference::medium::Medium;
+use rayon::prelude::*;
+
+/// A bound with its reason.
+pub struct Bound {
+    pub at_most: f64,
+    pub basis: Basis,
+    pub because: &'static str,
+}
+
+/// What was found at one level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solved {
+    /// Relative to the exact field, in each norm.
+    pub errors: Errors,
+    /// Largest difference from the lattice's own exact answer over the largest displacement, where it has one.
+    pub own: Option<f64>,
+}
+
+/// The order of convergence with the intended moduli, and why.
+pub struct Order {
+    pub expected: f64,
+    pub because: &'static str,
+}
+
+/// Bonds are symmetric and nothing is cut: only even powers of δ.
+pub const SECOND: Order = Order {
+    expected: 2.0,
+    because: "with the intended moduli the error of a lattice begins with (kδ)²: bonds are symmetric, so that only even powers occur; 0.1 leaves room for the next power",
+};
+
+/// A problem with an exact answer in any medium.
+pub trait Problem<const D: usize>: Send + Sync {
+    /// One level made ready.
+    type Level: Send + Sync;
+
+    /// What is refined, for claims and captions: "the displacement of …".
+    fn what(&self) -> String;
+    fn equations(&self) -> &'static str;
+    /// Where the exact answer comes from.
+    fn source(&self) -> &'static str;
+    /// The order with the intended moduli.
+    fn order(&self) -> Order {
+        SECOND
+    }
+    /// Whether the lattice has an exact answer of its own.
+    fn has_own(&self) -> bool {
+        true
+    }
+    /// What rounding may leave; errors below ten times it carry no order.
+    fn rounding(&self) -> Bound;
+    /// Whether [`Problem::between`] is known.
+    fn predicts_plateaus(&self) -> bool {
+        true
+    }
+    fn plan(&self, level: &Self::Level) -> Planned;
+    fn effort(&self, level: &Self::Level) -> Effort;
+    /// Solves one level and compares it with the exact answer in `medium`.
+    fn solve(&self, subject: &dyn Subject, level: &Self::Level, medium: &Medium) -> Result<Solved, String>;
+    /// Errors of the exact answer in one medium against that in another, at the nodes of a level.
+    fn between(&self, level: &Self::Level, wrong: &Medium, right: &Medium) -> Option<Errors>;
+}
+
+/// A problem along one refinement.
+pub struct Track<L> {
+    pub name: String,
+    pub sequence: Sequence,
+    /// From coarse to fine.
+    pub levels: Vec<L>,
+    /// Whether long waves have the speeds that they are meant to have at every level.
+    pub right_moduli: bool,
+}
+
+/// A problem along several refinements.
+pub struct Refined<const D: usize, P: Problem<D>> {
+    pub title: String,
+    pub problem: P,
+    pub tracks: Vec<Track<P::Level>>,
+}
+
+/// What one refinement showed.
+pub struct Seen {
+    pub levels: levels::Sequence,
+    /// Largest difference from the lattice's own answer.
+    pub own: Option<f64>,
+    /// Errors that the lattice's moduli alone leave at the finest level.
+    pub plateau: Option<Errors>,
+}
+
+impl<const D: usize, P: Problem<D>> Refined<D, P>
+where
+    In: Space<D>,
+{
+    /// Makes every level ready.
+    pub fn new(
+        title: &str,
+        problem: P,
+        sequences: Vec<Sequence>,
+        ready: impl Fn(&P, &Sequence, Level) -> Result<P::Level, Wrong>,
+    ) -> Result<Self, Wrong> {
+        let finest: Vec<_> = sequences.iter().map(|one| one.lattice(one.finest())).collect();
+        let mut tracks = Vec::new();
+        for (sequence, name) in sequences.into_iter().zip(names::names(&finest)) {
+            for level in &sequence.levels {
+                In::reach(sequence.lattice(*level))
+                    .map_err(|unusable| Wrong::new("path.m", unusable.to_string(), unusable.cure()))?;
+            }
+            let levels = sequence.levels.iter().map(|level| ready(&problem, &sequence, *level));
+            let levels = levels.collect::<Result<_, _>>()?;
+            let right_moduli = sequence.levels.iter().all(|level| has_right_moduli(&sequence, *level));
+            let name = if sequence.refine == Refine::Delta { name } else { without_m(&name) };
+            let track = Track { name, sequence, levels, right_moduli };
+            if track.stops() && !problem.predicts_plateaus() {
+                let message = format!(
+                    "{}: its moduli are not the intended ones, so that its error does not fall",
+                    track.name
+                );
+                return Err(Wrong::new("weights.calibrated", message, "take calibrated = true"));
+            }
+            tracks.push(track);
+        }
+        Ok(Self { title: title.to_owned(), problem, tracks })
+    }
+
+    /// Rounding: errors below it carry no order.
+    pub fn floor(&self) -> f64 {
+        10.0 * self.problem.rounding().at_most
+    }
+
+    fn follow(&self, subject: &dyn Subject, track: &Track<P::Level>) -> Result<Seen, String> {
+        let sequence = &track.sequence;
+        let right = match sequence.horizon() {
+            None => Medium::Local,
+            Some(horizon) => Medium::Nonlocal {
+                kernel: crate::dispersion::curve::reference_kernel(sequence.weights.kernel),
+                horizon,
+            },
+        };
+        let solved: Vec<Result<Solved, String>> =
+            track.levels.par_iter().map(|level| self.problem.solve(subject, level, &right)).collect();
+        let solved: Vec<Solved> = solved.into_iter().collect::<Result<_, _>>()?;
+        let steps = sequence.levels.iter().map(|level| sequence.step(*level));
+        let finest = track.levels.last().ok_or("there are no levels")?;
+        let wrong = In::moduli(sequence.lattice(sequence.finest()));
+        Ok(Seen {
+            levels: levels::Sequence {
+                name: track.name.clone(),
+                levels: steps.zip(solved.iter().map(|solved| solved.errors)).collect(),
+            },
+            own: largest(solved.iter().filter_map(|solved| solved.own)),
+            plateau: track.stops().then(|| self.problem.between(finest, &wrong, &right)).flatten(),
+        })
+    }
+}
+
+/// Names without m, which grows along the path.
+fn without_m(name: &str) -> String {
+    name.split(", ").filter(|part| !part.starts_with("m = ")).collect::<Vec<_>>().join(", ")
+}
+
+/// Long-wave moduli this close to the intended ones are the intended ones.
+const RIGHT: f64 = 1e-12;
+
+fn has_right_moduli<const D: usize>(sequence: &Sequence, level: Level) -> bool
+where
+    In: Space<D>,
+{
+    match In::moduli(sequence.lattice(level)) {
+        Medium::Moduli(moduli) => {
+            let shear = if D == 1 { 1.0 } else { moduli.c12 };
+            (moduli.c11 - 1.0).abs() < RIGHT && (shear - 1.0).abs() < RIGHT
+        }
+        _ => false,
+    }
+}
+
+impl<L> Track<L> {
+    /// Refined at fixed m with other moduli than intended: it stops converging.
+    pub fn stops(&self) -> bool {
+        self.sequence.refine == Refine::Delta && !self.right_moduli
+    }
+
+    /// Refined at fixed m, or along a path, with the intended moduli.
+    pub fn converges(&self) -> bool {
+        self.sequence.refine != Refine::M && self.right_moduli
+    }
+
+    /// What theory says of the others.
+    pub fn expected<const D: usize>(&self) -> Expected {
+        theory::expected::<D>(&self.sequence)
+    }
+
+    /// Claimed by itself, under its own name.
+    fn alone(&self) -> bool {
+        !self.converges() && !self.stops()
+    }
+}
+
+impl<const D: usize, P: Problem<D>> Question for Refined<D, P>
+where
+    In: Space<D>,
+{
+    fn claims(&self, place: &Place) -> Vec<Claim> {
+        let what = self.problem.what();
+        let source = self.problem.source();
+        let mut claims = Vec::new();
+        if self.problem.has_own() {
+            let rounding = self.problem.rounding();
+            claims.push(
+                claim(
+                    place,
+                    "own",
+                    format!("largest difference of {what} from the lattice's own exact answer"),
+                )
+                .at_most(ErrorKind::MaxOfPeak, rounding.at_most)
+                .because(rounding.basis, rounding.because)
+                .source("waves of the lattice, its sums in double-double arithmetic"),
+            );
+        }
+        let Order { expected, because } = self.problem.order();
+        if self.tracks.iter().any(Track::converges) {
+            claims.extend(NORMS.map(|norm| {
+                let quantity = format!("order in δ of the error in {norm} of {what}, furthest lattice");
+                claim(place, &format!("order_{norm}"), quantity)
+                    .order(expected, 0.1)
+                    .because(Basis::Theory, because)
+                    .source(source)
+            }));
+        }
+        if self.tracks.iter().any(Track::stops) {
+            let quantity = format!(
+                "error of {what} at the finest level over that of an exact body with the lattice's moduli, less 1: furthest lattice and norm"
+            );
+            claims.push(
+                claim(place, "plateau", quantity)
+                    .at_most(ErrorKind::Relative, 0.05)
+                    .because(Basis::Theory, "refining at a fixed m does not change the lattice's moduli: the error tends to that of a body with these; 0.05 for the dispersion left at the finest level")
+                    .source("local elasticity with the lattice's moduli, summed in double-double arithmetic"),
+            );
+        }
+        for track in self.tracks.iter().filter(|track| track.alone()) {
+            claims.push(theory::claim_of::<D>(place, &track.sequence, &track.name, &what, source));
+        }
+        claims
+    }
+
+    fn scenes(&self) -> Vec<Planned> {
+        self.levels().map(|level| self.problem.plan(level)).collect()
+    }
+
+    fn effort(&self) -> Effort {
+        let mut total = Effort::default();
+        self.levels().for_each(|level| total += self.problem.effort(level));
+        total
+    }
+
+    fn equations(&self) -> &'static str {
+        self.problem.equations()
+    }
+
+    fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
+        let seen: Vec<Result<Seen, String>> =
+            self.tracks.par_iter().map(|track| self.follow(subject, track)).collect();
+        let seen: Vec<Seen> = match seen.into_iter().collect() {
+            Ok(seen) => seen,
+            Err(failure) => return Answer::failed(&self.claims(place), &failure),
+        };
+        Answer {
+            evidence: self.evidence(&seen),
+            tables: vec![report::table(&self.tracks, &seen, place)],
+            figures: report::figures(self, &seen, place),
+            ..Answer::default()
+        }
+    }
+}
+
+impl<const D: usize, P: Problem<D>> Refined<D, P>
+where
+    In: Space<D>,
+{
+    fn levels(&self) -> impl Iterator<Item = &P::Level> {
+        self.tracks.iter().flat_map(|track| &track.levels)
+    }
+
+    fn evidence(&self, seen: &[Seen]) -> Vec<(String, Evidence)> {
+        let floor = self.floor();
+        let both = || self.tracks.iter().zip(seen);
+        let solved = format!("{} levels", self.levels().count());
+        let mut evidence = Vec::new();
+        if self.problem.has_own() {
+            evidence.push(("own".into(), error_of(largest(seen.iter().filter_map(|seen| seen.own)), solved)));
+        }
+        let expected = self.problem.order().expected;
+        for (norm, name) in NORMS.iter().enumerate() {
+            let converging = both().filter(|(track, _)| track.converges());
+            let orders = converging
+                .map(|(track, seen)| tail_order(&track.name, &seen.levels.in_norm(norm), expected, floor));
+            evidence.extend(furthest(orders).map(|found| (format!("order_{name}"), found)));
+        }
+        let stopped = both().filter(|(track, _)| track.stops());
+        let plateaus =
+            stopped.flat_map(|(track, seen)| (0..NORMS.len()).map(move |norm| plateau(track, seen, norm)));
+        evidence.extend(furthest(plateaus).map(|found| ("plateau".into(), found)));
+        for (track, seen) in both().filter(|(track, _)| track.alone()) {
+            let found = theory::evidence_of(&track.expected::<D>(), &track.name, &seen.levels, floor);
+            evidence.push((theory::name_of(&track.sequence), found));
+        }
+        evidence
+    }
+}
+
+/// How far the finest level is from what the moduli predict; inconclusive where it still falls.
+fn plateau<L>(track: &Track<L>, seen: &Seen, norm: usize) -> Evidence {
+    let errors = seen.levels.in_norm(norm);
+    let reached = errors[errors.len() - 1].1;
+    let predicted = seen.plateau.map(|errors| errors[norm]);
+    let falling = errors.len().checked_sub(2).and_then(|last| pairwise(errors[last], errors[last + 1]));
+    let note = format!(
+        "{}: {reached:.4} in {}, order {:.2} still",
+        track.name,
+        NORMS[norm],
+        falling.unwrap_or(f64::NAN)
+    );
+    Evidence {
+        computed: Some(reached),
+        reference: predicted,
+        ..error_of(predicted.map(|predicted| (reached / predicted - 1.0).abs()), note)
+    }
+}
