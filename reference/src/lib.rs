@@ -34,14 +34,17 @@ pub mod medium;
 pub mod micromodulus;
 pub mod nonlocal_pulse;
 pub mod oracles;
+pub mod periodic_pulse;
 pub mod pulse_bar;
 pub mod released_bar;
 pub mod scattering;
+pub mod standing_wave;
 pub mod static_bar;
 
 mod absorbing;
 mod band_edge;
 mod bonds;
+mod clock;
 mod kernel;
 mod pulse;
 mod quadrature;
