@@ -22,10 +22,12 @@
 //! ```
 #![warn(missing_docs)]
 
+pub mod bent_plate;
 pub mod cell;
 pub mod continuum;
 pub mod double_double;
 pub mod finite_differences;
+pub mod forced_rest;
 pub mod front;
 pub mod lattice;
 pub mod lattice_modes;

@@ -9,10 +9,10 @@
 use std::collections::BTreeMap;
 
 use crate::bonds::Lattice;
+use crate::continuum;
 use crate::double_double::Dd;
 use crate::kernel::Kernel;
 use crate::lattice::{self, Moduli, Symmetric};
-use crate::{Branch, continuum};
 
 /// What carries a wave.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,7 +76,7 @@ impl Medium {
     }
 
     /// [`Self::plane_matrix`] of many waves, the family found once and each length of wave asked of the nonlocal
-    /// continuum once (some milliseconds each); None where one of them is.
+    /// continuum once (about a millisecond each); None where one of them is.
     pub fn plane_matrices(&self, waves: &[[f64; 2]]) -> Option<Vec<[f64; 3]>> {
         let rounded = |m: Symmetric| [m.xx, m.xy, m.yy].map(Dd::to_f64);
         Some(self.symmetric(waves)?.into_iter().map(rounded).collect())
@@ -164,11 +164,9 @@ fn nonlocal(kernel: Kernel, horizon: f64, waves: &[[f64; 2]]) -> Option<Vec<Symm
 /// (ω/ck)² of P and S, c = √(C11/ρ) for both, at |k|² = `square`.
 fn speeds_squared(kernel: Kernel, horizon: f64, square: f64) -> Option<[Dd; 2]> {
     let z = square.sqrt() * horizon;
-    let speed = |branch, over: f64| {
-        let omega = continuum::plane(kernel, branch, z)?.omega;
-        Some((Dd::from(omega) / Dd::from(z)).squared() / Dd::from(over))
-    };
-    Some([speed(Branch::P, 1.0)?, speed(Branch::S, 3.0)?])
+    let [p, s] = continuum::plane_pair(kernel, z)?;
+    let speed = |omega: f64| (Dd::from(omega) / Dd::from(z)).squared();
+    Some([speed(p.omega), speed(s.omega) / Dd::from(3.0)])
 }
 
 /// Two bonds ±r: the place, and 4 w n⊗n.

@@ -98,7 +98,7 @@ pub struct PeriodicPulse {
 impl PeriodicPulse {
     /// exp(−`sharpness` |x − `centre`|²) and its images in a box with these `sides`. None where a side or the sharpness
     /// is not positive, where the lattice's cells do not fill the box, and where the medium has no answer
-    /// ([`Medium::plane_waves`]). The nonlocal continuum takes some milliseconds for each length of wave.
+    /// ([`Medium::plane_waves`]). The nonlocal continuum takes about a millisecond for each length of wave.
     pub fn new(medium: Medium, sharpness: f64, centre: [f64; 2], sides: [f64; 2]) -> Option<Self> {
         let along_x = series(sharpness, centre[0], sides[0], medium.spacing())?;
         let along_y = series(sharpness, centre[1], sides[1], medium.spacing())?;
