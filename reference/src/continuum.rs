@@ -38,6 +38,12 @@ pub fn bar(kernel: Kernel, k_horizon: f64) -> Option<Wave> {
 /// A plane wave in the plane: ωδ/c and group speed over c, c the classical speed of the branch; accuracy as
 /// in [`bar`]. None for k ≤ 0 and beyond [`PLANE_LIMIT`].
 pub fn plane(kernel: Kernel, branch: Branch, k_horizon: f64) -> Option<Wave> {
+    let [p, s] = plane_pair(kernel, k_horizon)?;
+    Some(if branch == Branch::P { p } else { s })
+}
+
+/// [`plane`] for P and S at the price of one.
+pub fn plane_pair(kernel: Kernel, k_horizon: f64) -> Option<[Wave; 2]> {
     if !(k_horizon > 0.0 && k_horizon <= PLANE_LIMIT) {
         return None;
     }
@@ -46,20 +52,20 @@ pub fn plane(kernel: Kernel, branch: Branch, k_horizon: f64) -> Option<Wave> {
         .collect();
     let quarter = directions_in_a_quarter(k_horizon);
     let step = PI / Dd::from(2.0 * quarter as f64);
-    let (mut square, mut derivative) = (Dd::ZERO, Dd::ZERO);
+    let mut sums = [(Dd::ZERO, Dd::ZERO); 2];
     for j in 0..quarter {
         let (sine, cosine) = (step * (j as f64 + 0.5)).sin_cos();
-        let share = match branch {
-            Branch::P => cosine.squared(),
-            Branch::S => sine.squared(),
-        };
         let (along, along_derivative) = radial(&nodes, cosine);
-        square = square + share * along;
-        derivative = derivative + share * along_derivative;
+        for ((square, derivative), share) in sums.iter_mut().zip([cosine.squared(), sine.squared()]) {
+            *square = *square + share * along;
+            *derivative = *derivative + share * along_derivative;
+        }
     }
-    let long_wave = if branch == Branch::P { 3.0 } else { 1.0 };
-    let factor = Dd::from(8.0) * step * 4.0 / (PI * kernel.moment(2) * long_wave);
-    Some(wave(square * factor, derivative * factor / Dd::from(k_horizon)))
+    let of = |(square, derivative): (Dd, Dd), long_wave: f64| {
+        let factor = Dd::from(8.0) * step * 4.0 / (PI * kernel.moment(2) * long_wave);
+        wave(square * factor, derivative * factor / Dd::from(k_horizon))
+    };
+    Some([of(sums[0], 3.0), of(sums[1], 1.0)])
 }
 
 /// ∫ W (1 − cos(z s c)) ds and z times its derivative in z, along the direction with cos θ = c.

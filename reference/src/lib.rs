@@ -22,10 +22,12 @@
 //! ```
 #![warn(missing_docs)]
 
+pub mod bent_plate;
 pub mod cell;
 pub mod continuum;
 pub mod double_double;
 pub mod finite_differences;
+pub mod forced_rest;
 pub mod front;
 pub mod lattice;
 pub mod lattice_modes;
@@ -34,14 +36,17 @@ pub mod medium;
 pub mod micromodulus;
 pub mod nonlocal_pulse;
 pub mod oracles;
+pub mod periodic_pulse;
 pub mod pulse_bar;
 pub mod released_bar;
 pub mod scattering;
+pub mod standing_wave;
 pub mod static_bar;
 
 mod absorbing;
 mod band_edge;
 mod bonds;
+mod clock;
 mod kernel;
 mod pulse;
 mod quadrature;

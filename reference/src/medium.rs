@@ -9,10 +9,10 @@
 use std::collections::BTreeMap;
 
 use crate::bonds::Lattice;
+use crate::continuum;
 use crate::double_double::Dd;
 use crate::kernel::Kernel;
 use crate::lattice::{self, Moduli, Symmetric};
-use crate::{Branch, continuum};
 
 /// What carries a wave.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +36,9 @@ pub enum Medium {
         spacing: f64,
     },
 }
+
+/// ω/c, c = √(C11/ρ), and the unit displacement of a plane wave.
+pub type PlaneWave = (f64, [f64; 2]);
 
 impl Medium {
     /// ω²/c² of the bar wave `k`, in 1/length². None beyond the continuum's range ([`continuum::BAR_LIMIT`]) and
@@ -73,7 +76,7 @@ impl Medium {
     }
 
     /// [`Self::plane_matrix`] of many waves, the family found once and each length of wave asked of the nonlocal
-    /// continuum once (some milliseconds each); None where one of them is.
+    /// continuum once (about a millisecond each); None where one of them is.
     pub fn plane_matrices(&self, waves: &[[f64; 2]]) -> Option<Vec<[f64; 3]>> {
         let rounded = |m: Symmetric| [m.xx, m.xy, m.yy].map(Dd::to_f64);
         Some(self.symmetric(waves)?.into_iter().map(rounded).collect())
@@ -82,15 +85,14 @@ impl Medium {
     /// The two waves along `k`, each ω/c and its unit displacement, c = √(C11/ρ) for both: first P, the one whose
     /// displacement is nearer to k (at a tie the faster), then S. At k = 0 the axes. None as in
     /// [`Self::plane_matrix`] and where a calibrated lattice is unstable (ω² < 0).
-    pub fn plane_waves(&self, k: [f64; 2]) -> Option<[(f64, [f64; 2]); 2]> {
-        let length = (Dd::from(k[0]).squared() + Dd::from(k[1]).squared()).sqrt();
-        let towards = if length == Dd::ZERO { [Dd::ONE, Dd::ZERO] } else { k.map(|k| Dd::from(k) / length) };
-        let waves = self
-            .symmetric(&[k])?
-            .pop()?
-            .branches(towards)
-            .map(|(square, displacement, _)| (square.sqrt().to_f64(), displacement.map(Dd::to_f64)));
-        waves.iter().all(|(omega, _)| omega.is_finite()).then_some(waves)
+    pub fn plane_waves(&self, k: [f64; 2]) -> Option<[PlaneWave; 2]> {
+        self.many_plane_waves(&[k])?.pop()
+    }
+
+    /// [`Self::plane_waves`] of many waves; None where one of them is.
+    pub fn many_plane_waves(&self, waves: &[[f64; 2]]) -> Option<Vec<[PlaneWave; 2]>> {
+        let pairs = self.symmetric(waves)?.into_iter().zip(waves).map(|(matrix, &k)| eigen(&matrix, k));
+        pairs.map(|pair| pair.iter().all(|(omega, _)| omega.is_finite()).then_some(pair)).collect()
     }
 
     fn symmetric(&self, waves: &[[f64; 2]]) -> Option<Vec<Symmetric>> {
@@ -108,6 +110,15 @@ impl Medium {
         };
         matrices.iter().all(|m| (m.xx + m.yy + m.xy).to_f64().is_finite()).then_some(matrices)
     }
+}
+
+/// The waves of a matrix, P first.
+fn eigen(matrix: &Symmetric, k: [f64; 2]) -> [PlaneWave; 2] {
+    let length = (Dd::from(k[0]).squared() + Dd::from(k[1]).squared()).sqrt();
+    let towards = if length == Dd::ZERO { [Dd::ONE, Dd::ZERO] } else { k.map(|k| Dd::from(k) / length) };
+    let rounded =
+        |(square, displacement, _): (Dd, [Dd; 2], Dd)| (square.sqrt().to_f64(), displacement.map(Dd::to_f64));
+    matrix.branches(towards).map(rounded)
 }
 
 /// The angle that a wave turns in one step of central differences, 2 asin(ωΔt/2), from ω/c and cΔt. None above the
@@ -153,11 +164,9 @@ fn nonlocal(kernel: Kernel, horizon: f64, waves: &[[f64; 2]]) -> Option<Vec<Symm
 /// (ω/ck)² of P and S, c = √(C11/ρ) for both, at |k|² = `square`.
 fn speeds_squared(kernel: Kernel, horizon: f64, square: f64) -> Option<[Dd; 2]> {
     let z = square.sqrt() * horizon;
-    let speed = |branch, over: f64| {
-        let omega = continuum::plane(kernel, branch, z)?.omega;
-        Some((Dd::from(omega) / Dd::from(z)).squared() / Dd::from(over))
-    };
-    Some([speed(Branch::P, 1.0)?, speed(Branch::S, 3.0)?])
+    let [p, s] = continuum::plane_pair(kernel, z)?;
+    let speed = |omega: f64| (Dd::from(omega) / Dd::from(z)).squared();
+    Some([speed(p.omega), speed(s.omega) / Dd::from(3.0)])
 }
 
 /// Two bonds ±r: the place, and 4 w n⊗n.
