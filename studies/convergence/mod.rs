@@ -2,6 +2,7 @@
 
 pub mod frequency;
 pub mod path;
+pub mod pulse;
 pub mod refined;
 mod refined_report;
 pub mod rest;
@@ -15,6 +16,7 @@ use crate::written::Word;
 /// What a case may ask.
 pub const WORDS: &[Word] = &[
     Word::of::<wave::PlaneWaveAsked>("plane_wave"),
+    Word::of::<pulse::PointPulseAsked>("point_pulse"),
     Word::of::<frequency::FrequencyAsked>("frequency"),
     Word::of::<rest::ManufacturedAsked>("manufactured"),
 ];

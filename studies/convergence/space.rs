@@ -6,8 +6,10 @@ use pd_verify::dispersion::Branch;
 use pd_verify::lattice::{Lattice, Stencil, Unusable};
 use pd_verify::record::{Failure, Record};
 use pd_verify::scene::Scene;
-use pd_verify_reference::lattice;
-use pd_verify_reference::medium::{Medium, leapfrog_turn};
+use pd_verify_reference::medium::Medium;
+use pd_verify_reference::periodic_pulse::{PeriodicPulse, RingPulse};
+use pd_verify_reference::standing_wave::{BarStandingWave, StandingWave};
+use pd_verify_reference::{forced_rest, lattice};
 
 /// One or two dimensions.
 pub struct In;
@@ -43,17 +45,19 @@ pub trait Space<const D: usize> {
     /// Unit displacement of the wave k of a branch.
     fn polarisation(medium: &Medium, k: [f64; D], branch: Branch) -> Option<[f64; D]>;
 
+    /// A Gaussian pulse of u_x in the middle of a periodic square or ring, seen at the places along each axis: a field
+    /// for each component, row by row.
+    fn pulse(
+        medium: &Medium,
+        sharpness: f64,
+        side: f64,
+        places: [Vec<f64>; D],
+        by: Carried,
+    ) -> Option<Vec<Vec<f64>>>;
+
     /// How far a family reaches, in nodes.
     fn reach(lattice: Lattice) -> Result<usize, Unusable> {
         Ok(Stencil::<D>::new(lattice)?.reach())
-    }
-}
-
-/// The cosine by which a wave of ω/c has turned.
-fn turned(omega: f64, by: Carried) -> Option<f64> {
-    match by {
-        Carried::Time(ct) => Some(libm::cos(omega * ct)),
-        Carried::Steps(steps, c_dt) => Some(libm::cos(leapfrog_turn(omega, c_dt)? * steps as f64)),
     }
 }
 
@@ -72,15 +76,33 @@ impl Space<1> for In {
     }
 
     fn stiffness(medium: &Medium, k: [f64; 1], a: [f64; 1]) -> Option<[f64; 1]> {
-        Some([medium.bar_square(k[0])? * a[0]])
+        Some([forced_rest::bar_force_amplitude(medium, k[0], a[0])?])
     }
 
     fn response(medium: &Medium, k: [f64; 1], b: [f64; 1]) -> Option<[f64; 1]> {
-        Some([b[0] / medium.bar_square(k[0])?])
+        Some([forced_rest::bar_displacement_amplitude(medium, k[0], b[0])?])
     }
 
     fn carried(medium: &Medium, k: [f64; 1], a: [f64; 1], by: Carried) -> Option<[f64; 1]> {
-        Some([a[0] * turned(medium.bar_square(k[0])?.sqrt(), by)?])
+        let wave = BarStandingWave { medium: *medium, wavenumber: k[0], amplitude: a[0], phase: 0.0 };
+        Some([match by {
+            Carried::Time(ct) => wave.amplitude_at(ct)?,
+            Carried::Steps(steps, c_dt) => wave.amplitude_after(steps, c_dt)?,
+        }])
+    }
+
+    fn pulse(
+        medium: &Medium,
+        sharpness: f64,
+        side: f64,
+        [xs]: [Vec<f64>; 1],
+        by: Carried,
+    ) -> Option<Vec<Vec<f64>>> {
+        let pulse = RingPulse::new(*medium, sharpness, 0.5 * side, side)?;
+        Some(vec![match by {
+            Carried::Time(ct) => pulse.displacements(&xs, ct)?,
+            Carried::Steps(steps, c_dt) => pulse.displacements_after(&xs, steps, c_dt)?,
+        }])
     }
 
     fn polarisation(_: &Medium, _: [f64; 1], _: Branch) -> Option<[f64; 1]> {
@@ -102,23 +124,33 @@ impl Space<2> for In {
     }
 
     fn stiffness(medium: &Medium, k: [f64; 2], a: [f64; 2]) -> Option<[f64; 2]> {
-        let [xx, xy, yy] = medium.plane_matrix(k)?;
-        Some([xx * a[0] + xy * a[1], xy * a[0] + yy * a[1]])
+        forced_rest::force_amplitude(medium, k, a)
     }
 
     fn response(medium: &Medium, k: [f64; 2], b: [f64; 2]) -> Option<[f64; 2]> {
-        let [xx, xy, yy] = medium.plane_matrix(k)?;
-        let determinant = xx * yy - xy * xy;
-        Some([(yy * b[0] - xy * b[1]) / determinant, (xx * b[1] - xy * b[0]) / determinant])
+        forced_rest::displacement_amplitude(medium, k, b)
     }
 
     fn carried(medium: &Medium, k: [f64; 2], a: [f64; 2], by: Carried) -> Option<[f64; 2]> {
-        let mut total = [0.0; 2];
-        for (omega, unit) in medium.plane_waves(k)? {
-            let share = (a[0] * unit[0] + a[1] * unit[1]) * turned(omega, by)?;
-            total = [total[0] + share * unit[0], total[1] + share * unit[1]];
+        let wave = StandingWave { medium: *medium, wavenumber: k, amplitude: a, phase: 0.0 };
+        match by {
+            Carried::Time(ct) => wave.amplitude_at(ct),
+            Carried::Steps(steps, c_dt) => wave.amplitude_after(steps, c_dt),
         }
-        Some(total)
+    }
+
+    fn pulse(
+        medium: &Medium,
+        sharpness: f64,
+        side: f64,
+        [xs, ys]: [Vec<f64>; 2],
+        by: Carried,
+    ) -> Option<Vec<Vec<f64>>> {
+        let pulse = PeriodicPulse::new(*medium, sharpness, [0.5 * side; 2], [side; 2])?;
+        Some(Vec::from(match by {
+            Carried::Time(ct) => pulse.fields(&xs, &ys, ct)?,
+            Carried::Steps(steps, c_dt) => pulse.fields_after(&xs, &ys, steps, c_dt)?,
+        }))
     }
 
     fn polarisation(medium: &Medium, k: [f64; 2], branch: Branch) -> Option<[f64; 2]> {
