@@ -31,6 +31,7 @@ pub mod forced_rest;
 pub mod front;
 pub mod lattice;
 pub mod lattice_modes;
+pub mod lattice_points;
 pub mod leapfrog;
 pub mod medium;
 pub mod micromodulus;
