@@ -17,7 +17,7 @@ use pd_verify::compare::largest;
 use pd_verify::constraints::{Edge, Edges};
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
-use pd_verify::scene::{Initial, Positive, Scene, Shape, Snapshots, StepRule, Time, Wrong};
+use pd_verify::scene::{Initial, Positive, Scene, Shape, Snapshots, Time, Wrong};
 use pd_verify_reference::medium::Medium;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -33,7 +33,7 @@ pub struct PointPulseAsked {
     pub width_m: Positive,
     /// How far a local P wave travels meanwhile, over the side; default 0.3.
     pub travel: Option<Positive>,
-    /// Time step over the limit; default 0.5.
+    /// Time step over the limit at the coarsest level, the same cΔt/Δx at all; default 0.5.
     pub safety: Option<Positive>,
     pub path: PathAsked,
     pub weights: WeightsAsked,
@@ -73,9 +73,11 @@ impl Asked for PointPulseAsked {
             travel: self.travel.map_or(0.3, |travel| travel.0),
             safety: self.safety.map_or(0.5, |safety| safety.0),
         };
-        if pulse.width > 0.25 * pulse.side {
-            let message = format!("a pulse {} m wide fills its period of {} m", pulse.width, pulse.side);
-            return Err(Wrong::new("width_m", message, "take at most a quarter of side_m"));
+        // The nearest image is a side away: exp(−144) of it; half a side away exp(−36).
+        if pulse.width > pulse.side / 12.0 {
+            let message =
+                format!("a pulse {} m wide reaches beyond its period of {} m", pulse.width, pulse.side);
+            return Err(Wrong::new("width_m", message, "take at most a twelfth of side_m"));
         }
         let sequences = self.path.sequences(&self.weights)?;
         Ok(match body {
@@ -90,19 +92,20 @@ impl PointPulse {
     where
         In: Space<D>,
     {
-        let lattice = sequence.lattice(level);
-        let (nodes, spacing) =
-            cells([self.side; D], level.spacing).map_err(|wrong| Wrong { key: "path".into(), ..wrong })?;
         let duration = self.travel * self.side / self.material.dilatational_speed(self.body);
         let shape = Shape::Gaussian { centre: [0.5 * self.side; D], sharpness: self.sharpness() };
-        let time = Time { duration, step: StepRule::OfLimit(self.safety) };
-        let scene = Scene {
-            edges: Edges([[Edge::Periodic; 2]; D]),
-            displacement: vec![Initial { component: 0, amplitude: HEIGHT, shape }],
-            snapshots: vec![Snapshots { name: SEEN.into(), times: vec![duration] }],
-            ..Scene::bare(self.material, self.body, lattice, nodes, spacing, time)
+        let scene = |level: Level, step| {
+            let (nodes, spacing) = cells([self.side; D], level.spacing)
+                .map_err(|wrong| Wrong { key: "path".into(), ..wrong })?;
+            let (lattice, time) = (sequence.lattice(level), Time { duration, step });
+            Ok(Scene {
+                edges: Edges([[Edge::Periodic; 2]; D]),
+                displacement: vec![Initial { component: 0, amplitude: HEIGHT, shape: shape.clone() }],
+                snapshots: vec![Snapshots { name: SEEN.into(), times: vec![duration] }],
+                ..Scene::bare(self.material, self.body, lattice, nodes, spacing, time)
+            })
         };
-        let plan = Plan::of(&scene)?;
+        let (scene, plan) = whole::stepped(sequence, level, self.safety, scene)?;
         Ok(Marched { scene, plan })
     }
 

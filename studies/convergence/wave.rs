@@ -36,7 +36,7 @@ pub struct PlaneWaveAsked {
     pub branch: Option<BranchName>,
     /// How long, in periods of the local wave; default 1.125.
     pub periods: Option<Positive>,
-    /// Time step over the limit; default 0.5.
+    /// Time step over the limit at the coarsest level, the same cΔt/Δx at all; default 0.5.
     pub safety: Option<Positive>,
     pub path: PathAsked,
     pub weights: WeightsAsked,
@@ -176,23 +176,24 @@ where
 
     /// The march of one level.
     pub fn ready(&self, sequence: &Sequence, level: Level) -> Result<Marched<D>, Wrong> {
+        let (wavenumber, amplitude) = self.shape(sequence, level)?;
+        let scene = |level, step| self.scene(sequence, level, step);
+        let (scene, plan) = whole::stepped(sequence, level, self.safety, scene)?;
+        Ok(Marched { scene, plan, wavenumber, amplitude })
+    }
+
+    fn scene(&self, sequence: &Sequence, level: Level, step: StepRule) -> Result<Scene<D>, Wrong> {
         let lattice = sequence.lattice(level);
         let reach =
             In::reach(lattice).map_err(|wrong| Wrong::new("path.m", wrong.to_string(), wrong.cure()))?;
         let periods = self.periods_in_cells(sequence, level)?;
         let nodes = periods.map(|cells| cells.unwrap_or(reach));
         if let Some(cells) = periods.iter().flatten().find(|cells| **cells < reach.max(3)) {
-            let message = format!("a wave of {cells} cells is shorter than its lattice can carry");
+            let message = format!("a period of {cells} cells is shorter than the family reaches, {reach}");
             return Err(Wrong::new("wavelength_m", message, "take a longer wave or a smaller dx"));
         }
-        let wavenumber = periods.map(|cells| cells.map_or(0.0, |cells| TAU / (cells as f64 * level.spacing)));
+        let (wavenumber, amplitude) = self.shape(sequence, level)?;
         let length = wavenumber.iter().map(|k| k * k).sum::<f64>().sqrt();
-        let along = wavenumber.map(|k| k / length);
-        let amplitude = match self.branch {
-            Branch::P => along,
-            // Across, turned left.
-            Branch::S => std::array::from_fn(|axis| if axis == 0 { -along[D - 1] } else { along[0] }),
-        };
         let duration = self.periods * TAU / (length * self.speed());
         let phase = -0.5 * level.spacing * wavenumber.iter().sum::<f64>();
         let field = |component: usize| Initial {
@@ -200,15 +201,27 @@ where
             amplitude: HEIGHT * amplitude[component],
             shape: Shape::Wave { wavenumber, phase },
         };
-        let time = Time { duration, step: StepRule::OfLimit(self.safety) };
-        let scene = Scene {
+        Ok(Scene {
             edges: Edges([[Edge::Periodic; 2]; D]),
             displacement: (0..D).map(field).collect(),
             snapshots: vec![Snapshots { name: SEEN.into(), times: vec![duration] }],
-            ..Scene::bare(self.material, self.body, lattice, nodes, level.spacing, time)
-        };
-        let plan = Plan::of(&scene)?;
-        Ok(Marched { scene, plan, wavenumber, amplitude })
+            ..Scene::bare(self.material, self.body, lattice, nodes, level.spacing, Time { duration, step })
+        })
+    }
+
+    /// k in rad/m and the local wave's unit displacement.
+    fn shape(&self, sequence: &Sequence, level: Level) -> Result<([f64; D], [f64; D]), Wrong> {
+        let periods = self.periods_in_cells(sequence, level)?;
+        let wavenumber = periods.map(|cells| cells.map_or(0.0, |cells| TAU / (cells as f64 * level.spacing)));
+        let length = wavenumber.iter().map(|k| k * k).sum::<f64>().sqrt();
+        let along = wavenumber.map(|k| k / length);
+        Ok(match self.branch {
+            Branch::P => (wavenumber, along),
+            // Across, turned left.
+            Branch::S => {
+                (wavenumber, std::array::from_fn(|axis| if axis == 0 { -along[D - 1] } else { along[0] }))
+            }
+        })
     }
 
     /// c t in m at the end of a march.

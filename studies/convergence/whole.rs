@@ -1,8 +1,10 @@
 //! The whole body at the end of a march: how studies look at it, and its nodes in the order in which it is seen.
 
+use super::path::{Level, Sequence};
 use crate::dispersion::curve::reference_lattice;
+use pd_verify::plan::Plan;
 use pd_verify::record::Record;
-use pd_verify::scene::Scene;
+use pd_verify::scene::{Scene, StepRule, Wrong};
 use pd_verify_reference::medium::Medium;
 
 /// Name of the snapshot.
@@ -22,6 +24,23 @@ pub fn last(record: &Record) -> Result<&[Vec<f64>], String> {
         Some(snapshot) if snapshot.step == record.plan.steps => Ok(&snapshot.displacement),
         _ => Err("the body was not seen at the end".into()),
     }
+}
+
+/// The scene of a level with its plan: at `safety` of the limit where the path begins, and the same cΔt/Δx all along it.
+/// (At fixed δ the limit tends to a constant, and so would the error of the time step.)
+pub fn stepped<const D: usize>(
+    sequence: &Sequence,
+    level: Level,
+    safety: f64,
+    scene: impl Fn(Level, StepRule) -> Result<Scene<D>, Wrong>,
+) -> Result<(Scene<D>, Plan), Wrong> {
+    let coarsest = sequence.levels[0];
+    let coarse = Plan::of(&scene(coarsest, StepRule::OfLimit(safety))?)?;
+    let mut made = scene(level, StepRule::OfLimit(safety))?;
+    let steps = (coarse.steps as f64 * coarsest.spacing / level.spacing - 1e-9).ceil();
+    made.time.step = StepRule::Given { seconds: made.time.duration / steps, beyond_limit: false };
+    let plan = Plan::of(&made)?;
+    Ok((made, plan))
 }
 
 /// The lattice of a scene as a medium.
