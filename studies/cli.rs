@@ -28,6 +28,13 @@ pub enum Command {
         #[command(flatten)]
         options: RunOptions,
     },
+    /// How errors fall with the horizon and the spacing: the shipped studies, or the files given
+    Convergence {
+        /// Study files; none means the shipped studies
+        files: Vec<PathBuf>,
+        #[command(flatten)]
+        options: RunOptions,
+    },
     /// Run study files of any kind
     Run {
         /// Study files

@@ -56,6 +56,9 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
         Command::Bar { files, options } => {
             judge::shipped_or_files(Kind::Bar, &files, &options).map(judge::End::code)
         }
+        Command::Convergence { files, options } => {
+            judge::shipped_or_files(Kind::Convergence, &files, &options).map(judge::End::code)
+        }
         Command::Run { files, options } => judge::files(&files, &options).map(judge::End::code),
         Command::List { json } => print(&list::list(json)?),
         Command::Explain { id, bibtex, toml } => print(&explain::explain(&id, bibtex, toml)?),

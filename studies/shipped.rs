@@ -15,6 +15,10 @@ pub const SHIPPED: &[(&str, &str)] = &[
     ("studies/bar/release.toml", include_str!("bar/release.toml")),
     ("studies/bar/pulse.toml", include_str!("bar/pulse.toml")),
     ("studies/bar/statics.toml", include_str!("bar/statics.toml")),
+    ("studies/convergence/waves.toml", include_str!("convergence/waves.toml")),
+    ("studies/convergence/pulses.toml", include_str!("convergence/pulses.toml")),
+    ("studies/convergence/rest.toml", include_str!("convergence/rest.toml")),
+    ("studies/convergence/rules.toml", include_str!("convergence/rules.toml")),
 ];
 
 /// All shipped studies of a kind (or all), with `--set` changes; a setting that no study has a place for is refused.

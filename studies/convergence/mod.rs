@@ -8,6 +8,7 @@ mod refined_report;
 pub mod rest;
 mod space;
 mod theory;
+pub mod volume_rules;
 pub mod wave;
 mod whole;
 
@@ -18,11 +19,12 @@ pub const WORDS: &[Word] = &[
     Word::of::<wave::PlaneWaveAsked>("plane_wave"),
     Word::of::<pulse::PointPulseAsked>("point_pulse"),
     Word::of::<frequency::FrequencyAsked>("frequency"),
+    Word::of::<volume_rules::VolumeRulesAsked>("volume_rules"),
     Word::of::<rest::ManufacturedAsked>("manufactured"),
 ];
 
 /// Files that cases share; no figure may take their names.
-pub const TABLES: &[&str] = &["convergence", "marched_waves", "verdicts"];
+pub const TABLES: &[&str] = &["convergence", "marched_waves", "volume_rules", "verdicts"];
 
 /// Ends of the names of figures beside the one that is called like its case.
 pub const SUFFIXES: &[&str] = &[];

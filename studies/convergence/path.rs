@@ -86,8 +86,7 @@ pub struct Sequence {
 impl Sequence {
     /// The lattice of a level.
     pub fn lattice(&self, level: Level) -> Lattice {
-        let Weights { kernel, volume_rule, calibrated } = self.weights;
-        Lattice { kernel, m: level.m, volume_rule, calibrated }
+        self.weights.lattice(level.m)
     }
 
     /// What the error is ordered by: δ in m, or 1/m.
@@ -110,6 +109,12 @@ impl Sequence {
 }
 
 impl Weights {
+    /// The lattice with m = δ/Δx.
+    pub fn lattice(self, m: f64) -> Lattice {
+        let Self { kernel, volume_rule, calibrated } = self;
+        Lattice { kernel, m, volume_rule, calibrated }
+    }
+
     /// In the name of a claim.
     pub fn slug(self) -> String {
         let weights = if self.calibrated { "calibrated" } else { "printed" };
@@ -118,7 +123,8 @@ impl Weights {
 }
 
 impl WeightsAsked {
-    fn all(&self) -> Result<Vec<Weights>, Wrong> {
+    /// Every combination.
+    pub fn all(&self) -> Result<Vec<Weights>, Wrong> {
         let kernels = kernels(&self.kernel, self.p.as_ref())?;
         let calibrated = self.calibrated.clone().unwrap_or(one_or_many(false)).0;
         check_count(&[kernels.len(), self.volume_rule.0.len(), calibrated.len()])?;

@@ -11,7 +11,6 @@ use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim,
 use crate::subject::Subject;
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
-use pd_verify::compare::order::pairwise;
 use pd_verify::scene::Wrong;
 use pd_verify::verdict::Evidence;
 use pd_verify_reference::medium::Medium;
@@ -245,12 +244,12 @@ where
         }
         if self.tracks.iter().any(Track::stops) {
             let quantity = format!(
-                "error of {what} at the finest level over that of an exact body with the lattice's moduli, less 1: furthest lattice and norm"
+                "level at which the error of {what} stops, over that of an exact body with the lattice's moduli, less 1: furthest lattice and norm"
             );
             claims.push(
                 claim(place, "plateau", quantity)
                     .at_most(ErrorKind::Relative, 0.05)
-                    .because(Basis::Theory, "refining at a fixed m does not change the lattice's moduli: the error tends to that of a body with these; 0.05 for the dispersion left at the finest level")
+                    .because(Basis::Theory, "refining at a fixed m does not change the lattice's moduli: the error tends to that of a body with these, by δ², which is extrapolated from the two finest levels; 0.05 for the next power")
                     .source("local elasticity with the lattice's moduli, summed in double-double arithmetic"),
             );
         }
@@ -325,21 +324,19 @@ where
     }
 }
 
-/// How far the finest level is from what the moduli predict; inconclusive where it still falls.
+/// The level that the error tends to, over what the moduli predict; inconclusive where it is still far from there.
 fn plateau<L>(track: &Track<L>, seen: &Seen, norm: usize) -> Evidence {
     let errors = seen.levels.in_norm(norm);
-    let reached = errors[errors.len() - 1].1;
+    let [.., (coarse, before), (fine, last)] = errors[..] else { return Evidence::default() };
+    let limit = last + (last - before) / ((coarse / fine).powi(2) - 1.0);
     let predicted = seen.plateau.map(|errors| errors[norm]);
-    let falling = errors.len().checked_sub(2).and_then(|last| pairwise(errors[last], errors[last + 1]));
-    let note = format!(
-        "{}: {reached:.4} in {}, order {:.2} still",
-        track.name,
-        NORMS[norm],
-        falling.unwrap_or(f64::NAN)
-    );
+    let far = (limit - last).abs() > 0.5 * limit.abs();
     Evidence {
-        computed: Some(reached),
-        reference: predicted,
-        ..error_of(predicted.map(|predicted| (reached / predicted - 1.0).abs()), note)
+        outside: far
+            .then(|| format!("{}: {last:.2e} is still far from a plateau, take finer levels", track.name)),
+        ..error_of(
+            predicted.map(|predicted| (limit / predicted - 1.0).abs()),
+            format!("{}: {limit:.4e} in {}, {last:.4e} at the finest level", track.name, NORMS[norm]),
+        )
     }
 }

@@ -187,9 +187,10 @@ where
         let reach =
             In::reach(lattice).map_err(|wrong| Wrong::new("path.m", wrong.to_string(), wrong.cure()))?;
         let periods = self.periods_in_cells(sequence, level)?;
-        let nodes = periods.map(|cells| cells.unwrap_or(reach));
-        if let Some(cells) = periods.iter().flatten().find(|cells| **cells < reach.max(3)) {
-            let message = format!("a period of {cells} cells is shorter than the family reaches, {reach}");
+        let thin = reach.max(level.m.ceil() as usize);
+        let nodes = periods.map(|cells| cells.unwrap_or(thin));
+        if let Some(cells) = periods.iter().flatten().find(|cells| **cells < thin.max(3)) {
+            let message = format!("a period of {cells} cells is shorter than the family reaches, {thin}");
             return Err(Wrong::new("wavelength_m", message, "take a longer wave or a smaller dx"));
         }
         let (wavenumber, amplitude) = self.shape(sequence, level)?;

@@ -8,6 +8,7 @@ use pd_verify::dispersion::{Branch, Wave};
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::{Lattice, Unusable};
 use pd_verify::material::Body;
+use pd_verify::partial_volume::VolumeRule;
 use pd_verify_reference as reference;
 use std::f64::consts::PI;
 
@@ -210,14 +211,17 @@ pub fn reference_kernel(kernel: Kernel) -> reference::Kernel {
 
 /// The same lattice in the reference's words.
 pub fn reference_lattice(lattice: Lattice) -> reference::Lattice {
-    use pd_verify::partial_volume::VolumeRule;
-    let rule = match lattice.volume_rule {
+    let (kernel, rule) = (reference_kernel(lattice.kernel), reference_rule(lattice.volume_rule));
+    reference::Lattice { kernel, m: lattice.m, rule, calibrated: lattice.calibrated }
+}
+
+/// The same volume rule in the reference's words.
+pub fn reference_rule(rule: VolumeRule) -> reference::VolumeRule {
+    match rule {
         VolumeRule::Full => reference::VolumeRule::Full,
         VolumeRule::Linear => reference::VolumeRule::Linear,
         VolumeRule::ExactArea => reference::VolumeRule::ExactArea,
-    };
-    let kernel = reference_kernel(lattice.kernel);
-    reference::Lattice { kernel, m: lattice.m, rule, calibrated: lattice.calibrated }
+    }
 }
 
 fn reference_branch(branch: Branch) -> reference::Branch {
