@@ -45,7 +45,7 @@ impl Twice {
         let march = |scene: &Either| scene.march(subject).map_err(|failure| failure.to_string());
         let [stencil, bonds] = [march(&self.scenes[0])?, march(&self.scenes[1])?];
         let values = |record: &Record| -> Vec<f64> {
-            record.traces.iter().flat_map(|trace| trace.rows.iter().flatten().copied()).collect()
+            record.traces.iter().flat_map(|trace| trace.known()).collect()
         };
         let (a, b) = (values(&stencil), values(&bonds));
         if a.len() != b.len() {

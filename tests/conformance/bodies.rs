@@ -51,6 +51,7 @@ pub fn scene<const D: usize>(lattice: Lattice, nodes: [usize; D]) -> Scene<D> {
         operator: Operator::Stencil,
         edges: Edges::default(),
         notches: vec![],
+        holes: vec![],
         surface: Correction::None,
         displacement: vec![],
         velocity: vec![],
