@@ -155,9 +155,7 @@ fn trace<const D: usize>(probe: &Probe<D>, grid: &Grid<D>) -> Trace {
     let columns = match probe.watch {
         Watch::Point { at } => displacement(at).collect(),
         Watch::Strain { at } => vec![Column { at: Some(vec![at]), ..whole("strain", "1") }],
-        Watch::Line { along, through } => {
-            line(grid, along, through).flat_map(of_node).collect()
-        }
+        Watch::Line { along, through } => line(grid, along, through).flat_map(of_node).collect(),
         Watch::Energies => {
             let names = ["kinetic", "elastic", "work_of_loads", "work_of_damping", "work_of_driven_nodes"];
             names.map(|name| whole(name, "J")).to_vec()

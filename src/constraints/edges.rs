@@ -93,7 +93,8 @@ impl<const D: usize> Edges<D> {
         let held = match edge {
             Edge::Free => false,
             Edge::Periodic => {
-                let message = format!("the {name} edge is periodic: the body goes on there, no edge can be driven");
+                let message =
+                    format!("the {name} edge is periodic: the body goes on there, no edge can be driven");
                 let help = "make the edge free, or drive nodes in a box by from_m and to_m";
                 return Err(Wrong::new("region.edge", message, help));
             }

@@ -73,7 +73,9 @@ impl<const D: usize> Factors<D> {
         for node in grid.each() {
             let own = total(&|offset| connectivity.present(node, offset));
             of_node[grid.number(node)] =
-                std::array::from_fn(|axis| if own[axis] == bulk[axis] { 1.0 } else { bulk[axis] / own[axis] });
+                std::array::from_fn(
+                    |axis| if own[axis] == bulk[axis] { 1.0 } else { bulk[axis] / own[axis] },
+                );
         }
         Self {
             correction,

@@ -1,9 +1,9 @@
 //! What is refused before anything is computed: bodies, edges, holes and probes that cannot be.
 
+use super::counts::Counts;
 use crate::constraints::Edge;
 use crate::grid::Grid;
 use crate::lattice::{Stencil, Unusable};
-use super::counts::Counts;
 use crate::record::{corners, line};
 use crate::scene::{Hole, Rotations, Scene, Watch, Wrong};
 
@@ -94,7 +94,6 @@ pub fn probes<const D: usize>(scene: &Scene<D>, grid: &Grid<D>) -> Result<(), Wr
     Ok(())
 }
 
-
 /// Whether the nodes between which a point is seen are there.
 fn in_the_body<const D: usize>(
     scene: &Scene<D>,
@@ -118,8 +117,7 @@ fn in_the_body<const D: usize>(
         Some(node) => format!("the nearest node that is left stands at {}", place(grid.position(node))),
         None => "leave the hole out".into(),
     };
-    let message =
-        format!("the probe \"{probe}\" at {} sees nodes that a hole has removed", place(at));
+    let message = format!("the probe \"{probe}\" at {} sees nodes that a hole has removed", place(at));
     Err(Wrong::new("at_m", message, help))
 }
 

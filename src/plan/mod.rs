@@ -151,4 +151,3 @@ fn effects<const D: usize>(scene: &Scene<D>) -> (Vec<String>, Vec<String>) {
     say(scene.probes.iter().any(|probe| probe.watch == Watch::Energies), "energy ledger");
     (on, off)
 }
-

@@ -43,8 +43,10 @@ impl HoleAsked {
                 "the hole lies outside the plate: its centre is {away} m away from it, and its radius is {} m",
                 hole.radius
             );
-            let help =
-                format!("move it: the plate reaches from (0, 0) to ({}, {}) m, or leave it out", size[0], size[1]);
+            let help = format!(
+                "move it: the plate reaches from (0, 0) to ({}, {}) m, or leave it out",
+                size[0], size[1]
+            );
             return Err(Wrong::new("centre_m", message, help));
         }
         Ok(hole)
@@ -59,8 +61,7 @@ impl Hole {
 
     /// Whether it cuts the bond from a to b, in m: some point between them, ends included, lies in it.
     pub fn cuts(&self, a: [f64; 2], b: [f64; 2], spacing: f64) -> bool {
-        let (along, to) =
-            ([b[0] - a[0], b[1] - a[1]], [self.centre[0] - a[0], self.centre[1] - a[1]]);
+        let (along, to) = ([b[0] - a[0], b[1] - a[1]], [self.centre[0] - a[0], self.centre[1] - a[1]]);
         let square = along[0] * along[0] + along[1] * along[1];
         let share = ((along[0] * to[0] + along[1] * to[1]) / square).clamp(0.0, 1.0);
         self.holds([a[0] + share * along[0], a[1] + share * along[1]], spacing)
@@ -71,8 +72,8 @@ impl Hole {
     /// further into its image than that image's own.
     pub(crate) fn with_images<const D: usize>(holes: &[Self], edges: &Edges<D>, size: [f64; D]) -> Vec<Self> {
         let mut all = holes.to_vec();
-        for axis in 0..D {
-            let [below, above] = edges.0[axis];
+        for (axis, [below, above]) in edges.0.into_iter().enumerate() {
+            let length = size[axis];
             let mirrors = |edge: Edge| matches!(edge, Edge::MirrorOdd | Edge::MirrorEven);
             let image = |hole: &Self| {
                 let at = hole.centre[axis];
@@ -81,14 +82,12 @@ impl Hole {
                     places.push(-at);
                 }
                 if mirrors(above) {
-                    places.push(2.0 * size[axis] - at);
+                    places.push(2.0 * length - at);
                 }
                 if below == Edge::Periodic {
-                    places.extend([-2.0, -1.0, 1.0, 2.0].map(|periods| at + periods * size[axis]));
+                    places.extend([-2.0, -1.0, 1.0, 2.0].map(|periods| at + periods * length));
                 }
-                let near = |place: &f64| {
-                    place + hole.radius > -size[axis] && place - hole.radius < 2.0 * size[axis]
-                };
+                let near = |place: &f64| place + hole.radius > -length && place - hole.radius < 2.0 * length;
                 places.into_iter().filter(near).map(|place| hole.moved(axis, place)).collect::<Vec<_>>()
             };
             let more: Vec<Self> = all.iter().flat_map(image).collect();
@@ -117,7 +116,8 @@ mod tests {
 
     #[test]
     fn nodes_within_are_removed_and_those_on_the_circle_stay() {
-        for (x, within) in [([3.0, 2.0], true), ([3.9, 2.0], true), ([4.0, 2.0], false), ([3.0, 3.1], false)] {
+        for (x, within) in [([3.0, 2.0], true), ([3.9, 2.0], true), ([4.0, 2.0], false), ([3.0, 3.1], false)]
+        {
             assert_eq!(ROUND.holds(x, 1.0), within, "{x:?}");
         }
         // 3-4-5: on the circle of radius 5 whatever the rounding.

@@ -95,8 +95,10 @@ impl Region {
                 let depth = self.depth_m.map_or(grid.spacing, |depth| depth.0);
                 let layers = (depth / grid.spacing + 1e-9).floor() as usize;
                 if layers == 0 {
-                    let message =
-                        format!("a layer of {depth} m is thinner than a cell of {} m: it holds no node", grid.spacing);
+                    let message = format!(
+                        "a layer of {depth} m is thinner than a cell of {} m: it holds no node",
+                        grid.spacing
+                    );
                     let help = format!("take {} m or more, or leave depth_m out for one cell", grid.spacing);
                     return Err(Wrong::new("depth_m", message, help));
                 }

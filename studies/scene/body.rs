@@ -9,7 +9,8 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
 use pd_verify::scene::{
-    Effect, Hole, HoleAsked, Initial, InitialAsked, Notch, NotchAsked, Positive, Probe, Quantity, Scene, Watch, Wrong,
+    Effect, Hole, HoleAsked, Initial, InitialAsked, Notch, NotchAsked, Positive, Probe, Quantity, Scene,
+    Watch, Wrong,
 };
 use std::sync::Arc;
 

@@ -53,6 +53,8 @@ impl EdgesAsked {
             return Err(Wrong::new(key, message, "leave it out: a bar ends left and right"));
         }
         let pairs = [[self.left, self.right], [self.bottom, self.top]];
-        Ok(Edges(std::array::from_fn(|axis| pairs[axis].map(|name| name.map(Edge::from).unwrap_or_default()))))
+        Ok(Edges(std::array::from_fn(|axis| {
+            pairs[axis].map(|name| name.map(Edge::from).unwrap_or_default())
+        })))
     }
 }
