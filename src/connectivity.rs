@@ -1,17 +1,20 @@
-//! Which bonds exist: those whose ends lie in the body, or beyond an edge that mirrors or repeats it, and that no notch
-//! cuts. Notches are mirrored and repeated with the body.
+//! Which bonds exist: those whose ends are nodes of the body, or repeat one beyond an edge that mirrors or repeats it,
+//! and that no notch and no hole cuts. Notches and holes are mirrored and repeated with the body.
 
 use crate::constraints::{Edge, Edges};
-use crate::scene::{Notch, Scene};
+use crate::grid::Grid;
+use crate::scene::{Hole, Notch, Scene};
 
 /// The bonds of a body.
 #[derive(Debug, Clone)]
 pub struct Connectivity<const D: usize> {
-    nodes: [usize; D],
-    spacing: f64,
+    /// Without halo.
+    grid: Grid<D>,
     edges: Edges<D>,
     /// With their images beyond the edges.
     notches: Vec<Notch>,
+    /// Likewise.
+    holes: Vec<Hole>,
 }
 
 impl<const D: usize> Connectivity<D> {
@@ -33,40 +36,38 @@ impl<const D: usize> Connectivity<D> {
             let more: Vec<Notch> = notches.iter().flat_map(images).collect();
             notches.extend(more);
         }
-        Self { nodes: scene.nodes, spacing: scene.spacing, edges: scene.edges, notches }
+        Self { grid: scene.grid(0), edges: scene.edges, notches, holes: scene.voids() }
     }
 
     /// Whether the bond from a node of the body to its neighbour at `offset` exists.
     pub fn present(&self, node: [isize; D], offset: [i32; D]) -> bool {
-        self.edges.present(self.nodes, node, offset) && !self.is_cut(node, offset)
+        if !self.edges.present(self.grid.nodes, node, offset) {
+            return false;
+        }
+        let far = std::array::from_fn(|axis| node[axis] + offset[axis] as isize);
+        self.intact() || (self.image(far).is_some() && !self.is_cut(node, offset))
     }
 
     fn is_cut(&self, node: [isize; D], offset: [i32; D]) -> bool {
-        if self.notches.is_empty() {
-            return false;
-        }
+        let spacing = self.grid.spacing;
         let place = |shift: f64| -> [f64; 2] {
             std::array::from_fn(|axis| {
                 let at = |axis: usize| node[axis] as f64 + 0.5 + shift * f64::from(offset[axis]);
-                if axis < D { at(axis) * self.spacing } else { 0.0 }
+                if axis < D { at(axis) * spacing } else { 0.0 }
             })
         };
         let (a, b) = (place(0.0), place(1.0));
-        self.notches.iter().any(|notch| notch.cuts(a, b, self.spacing))
+        self.notches.iter().any(|notch| notch.cuts(a, b, spacing))
+            || self.holes.iter().any(|hole| hole.cuts(a, b, spacing))
     }
 
-    /// Whether any bond is cut by a notch.
-    pub fn notched(&self) -> bool {
-        !self.notches.is_empty()
+    /// Whether bonds are missing at free edges only: there are neither notches nor holes.
+    pub fn intact(&self) -> bool {
+        self.notches.is_empty() && self.holes.is_empty()
     }
 
-    /// The node of the body that a node repeats; `None` beyond a free edge.
+    /// The node of the body that a node repeats; `None` beyond a free edge and where no node stands.
     pub fn image(&self, node: [isize; D]) -> Option<[isize; D]> {
-        self.edges.image(self.nodes, node)
-    }
-
-    /// Cells along each axis.
-    pub fn nodes(&self) -> [usize; D] {
-        self.nodes
+        self.edges.image(&self.grid, node)
     }
 }

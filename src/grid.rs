@@ -6,6 +6,7 @@
 //! contiguous for threads. Work is cut into fixed pieces that know nothing of threads: results do not depend on them.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Nodes of a piece of work, about: small enough for a core's cache, large enough to be worth a thread.
 const PIECE: usize = 8192;
@@ -21,6 +22,8 @@ pub struct Grid<const D: usize> {
     pub halo: usize,
     /// Global index of the block's first node; a body in one block starts at 0.
     pub first: [usize; D],
+    /// Which cells hold a node, row by row; `None` where all do.
+    held: Option<Arc<[bool]>>,
 }
 
 /// Consecutive nodes of a row.
@@ -32,14 +35,45 @@ pub struct Run {
 }
 
 impl<const D: usize> Grid<D> {
-    /// A whole body in one block.
+    /// A whole body in one block, a node in each cell.
     pub fn new(nodes: [usize; D], spacing: f64, halo: usize) -> Self {
-        Self { nodes, spacing, halo, first: [0; D] }
+        Self { nodes, spacing, halo, first: [0; D], held: None }
+    }
+
+    /// The same block without the nodes that are not kept.
+    pub fn keeping(self, keeps: impl Fn([isize; D]) -> bool) -> Self {
+        let mut held: Vec<bool> = self.held.as_ref().map_or(vec![true; self.cells()], |held| held.to_vec());
+        for node in self.each() {
+            held[self.number(node)] = keeps(node);
+        }
+        let all = held.iter().all(|held| *held);
+        Self { held: (!all).then(|| held.into()), ..self }
+    }
+
+    /// Whether nodes are missing.
+    pub fn pierced(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// Whether a cell of the block holds a node; beyond the block there is none of its own.
+    pub fn has(&self, node: [isize; D]) -> bool {
+        let inside = (0..D).all(|axis| (0..self.nodes[axis] as isize).contains(&node[axis]));
+        inside && self.held.as_ref().is_none_or(|held| held[self.number(node)])
+    }
+
+    /// How many cells, without halo.
+    pub fn cells(&self) -> usize {
+        self.nodes.iter().product()
     }
 
     /// How many nodes, without halo.
     pub fn count(&self) -> usize {
-        self.nodes.iter().product()
+        self.held.as_ref().map_or(self.cells(), |held| held.iter().filter(|held| **held).count())
+    }
+
+    /// Number of a cell, row by row; cells without a node count too.
+    pub fn number(&self, node: [isize; D]) -> usize {
+        node.get(1).copied().unwrap_or(0) as usize * self.nodes[0] + node[0] as usize
     }
 
     /// From one component of a node to the next; also the length of a row of one component.
@@ -88,8 +122,8 @@ impl<const D: usize> Grid<D> {
 
     /// All nodes, row by row.
     pub fn each(&self) -> impl Iterator<Item = [isize; D]> + use<D> {
-        let columns = self.nodes[0];
-        (0..self.count()).map(move |n| {
+        let (columns, held) = (self.nodes[0], self.held.clone());
+        (0..self.cells()).filter(move |&n| held.as_ref().is_none_or(|held| held[n])).map(move |n| {
             let mut node = [(n % columns) as isize; D];
             if let Some(row) = node.get_mut(1) {
                 *row = (n / columns) as isize;
@@ -144,6 +178,19 @@ mod tests {
         }
         assert_eq!(grid.position([0, 4]), [0.25, 2.25]);
         assert_eq!(grid.place([-3, -3]), 0);
+    }
+
+    #[test]
+    fn nodes_that_are_not_kept_are_none() {
+        let whole = Grid::<2>::new([4, 3], 1.0, 2);
+        assert_eq!(whole.clone().keeping(|_| true), whole);
+        let pierced = whole.clone().keeping(|node| node != [1, 1]).keeping(|node| node != [3, 2]);
+        assert_eq!((pierced.count(), pierced.cells(), pierced.each().count()), (10, 12, 10));
+        assert!(pierced.pierced() && !pierced.has([1, 1]) && !pierced.has([3, 2]) && pierced.has([2, 1]));
+        assert!(!pierced.has([-1, 0]) && !whole.has([0, 3]));
+        assert_eq!((pierced.number([1, 1]), pierced.place([2, 1])), (5, whole.place([2, 1])));
+        let lengths: Vec<usize> = pierced.runs(|_| true).iter().flatten().map(|run| run.len).collect();
+        assert_eq!(lengths, [4, 1, 2, 3]);
     }
 
     #[test]

@@ -42,7 +42,7 @@ impl<const D: usize> Model<D> {
         let unusable =
             |wrong: crate::lattice::Unusable| Wrong::new("lattice.m", wrong.to_string(), wrong.cure());
         let stencil = Stencil::<D>::new(scene.lattice).map_err(unusable)?;
-        let grid = Grid::new(scene.nodes, scene.spacing, stencil.reach());
+        let grid = scene.grid(stencil.reach());
         let bonds = match scene.rotations {
             Rotations::Small => bonds::<D, Small>(scene, &stencil, &grid),
             Rotations::Finite => bonds::<D, Finite>(scene, &stencil, &grid),

@@ -24,7 +24,9 @@ use pd_verify::model::Model;
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::plan::Plan;
 use pd_verify::record;
-use pd_verify::scene::{Effect, Initial, Operator, Probe, Rotations, Scene, Shape, StepRule, Time, Watch};
+use pd_verify::scene::{
+    Effect, Hole, Initial, Notch, Operator, Probe, Rotations, Scene, Shape, StepRule, Time, Watch,
+};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -89,7 +91,8 @@ fn loads<const D: usize>(history: &Value) -> Vec<Arc<dyn Effect<D>>> {
 }
 
 fn drive<const D: usize>(history: &Value) -> Arc<dyn Effect<D>> {
-    let region = json!({ "edge": "left", "depth_m": 8e-3 });
+    // Two layers of nodes, by a box: at a mirrored or periodic edge no motion may be asked for by name.
+    let region = json!({ "from_m": vec![0.0; D], "to_m": &[8e-3, 1.0][..D] });
     let motion = json!({ "region": region, "axis": "x", "displacement_m": 5e-5, "history": history });
     effect::<D, PrescribedMotion>(motion)
 }
@@ -136,7 +139,11 @@ fn the_ledger_of_a_linear_body_closes() {
         eprintln!("plate {edges:?}: {ratio} of the bound");
     }
     let corrected = scene::<2>(constant(2.0, VolumeRule::Linear, false), [11, 9]);
-    linear(&Scene { surface: Correction::Energy, ..corrected });
+    linear(&Scene { surface: Correction::Energy, ..corrected.clone() });
+    let dx = corrected.spacing;
+    let holes = vec![Hole { centre: [5.2 * dx, 4.6 * dx], radius: 1.7 * dx }];
+    let notches = vec![Notch { from: [11.0 * dx, 6.1 * dx], to: [7.4 * dx, 6.3 * dx] }];
+    linear(&Scene { holes, notches, surface: Correction::Volume, ..corrected });
 }
 
 #[test]

@@ -5,6 +5,7 @@
 //! The tangential displacement of a plate is of the other parity. At a free edge the bonds beyond are missing.
 
 use crate::grid::Grid;
+use crate::scene::{Side, Wrong};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -33,6 +34,11 @@ impl Edge {
             Self::Periodic => "periodic",
         }
     }
+
+    /// The same in messages, with its other name.
+    pub fn described(self) -> &'static str {
+        if self == Self::MirrorOdd { "mirror_odd (a roller)" } else { self.name() }
+    }
 }
 
 /// Lower and upper edge of each axis.
@@ -60,11 +66,12 @@ impl<const D: usize> Edges<D> {
         })
     }
 
-    /// The node of the body that a node repeats, itself if it belongs to the body; `None` beyond a free edge.
-    pub fn image(&self, nodes: [usize; D], node: [isize; D]) -> Option<[isize; D]> {
+    /// The node of the body that a node repeats, itself if it belongs to the body; `None` beyond a free edge and where
+    /// no node stands.
+    pub fn image(&self, grid: &Grid<D>, node: [isize; D]) -> Option<[isize; D]> {
         let mut image = node;
         for axis in 0..D {
-            let count = nodes[axis] as isize;
+            let count = grid.nodes[axis] as isize;
             let below = node[axis] < 0;
             if below || node[axis] >= count {
                 image[axis] = match self.0[axis][usize::from(!below)] {
@@ -75,7 +82,31 @@ impl<const D: usize> Edges<D> {
                 };
             }
         }
-        Some(image)
+        grid.has(image).then_some(image)
+    }
+
+    /// Refuses to drive the nodes along an edge where the body goes on, or where its mirror holds them already.
+    pub fn may_drive(&self, side: Side, axis: usize) -> Result<(), Wrong> {
+        let (normal, upper) = side.end::<D>()?;
+        let edge = self.0[normal][usize::from(upper)];
+        let (name, described) = (side.name(), edge.described());
+        let held = match edge {
+            Edge::Free => false,
+            Edge::Periodic => {
+                let message =
+                    format!("the {name} edge is periodic: the body goes on there, no edge can be driven");
+                let help = "make the edge free, or drive nodes in a box by from_m and to_m";
+                return Err(Wrong::new("region.edge", message, help));
+            }
+            Edge::MirrorOdd => axis == normal,
+            Edge::MirrorEven => axis != normal,
+        };
+        if !held {
+            return Ok(());
+        }
+        let message =
+            format!("the {name} edge is {described}: its mirror holds it along {} already", ["x", "y"][axis]);
+        Err(Wrong::new("axis", message, "leave this motion out, or make the edge free"))
     }
 
     /// Fills the ghosts of a field: the columns beyond left and right first, then whole rows below and above.

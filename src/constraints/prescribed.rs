@@ -28,7 +28,11 @@ impl<const D: usize> Effect<D> for PrescribedMotion {
         }
         let nodes = self.region.nodes(setting.grid).map_err(|wrong| wrong.inside("region"))?;
         let history = self.history.check().map_err(|wrong| wrong.inside("history"))?;
-        let component = self.axis.index::<D>()? * setting.grid.stride();
+        let axis = self.axis.index::<D>()?;
+        if let Some(side) = self.region.edge {
+            setting.edges.may_drive(side, axis)?;
+        }
+        let component = axis * setting.grid.stride();
         let places: Vec<usize> = nodes.iter().map(|node| setting.grid.place(*node) + component).collect();
         let displacements = vec![self.displacement_m; places.len()];
         Ok(Acts::Constraint(Box::new(Driven { places, displacements, history })))

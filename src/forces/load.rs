@@ -60,11 +60,19 @@ impl<const D: usize> Effect<D> for Traction {
         let (axis, upper) = self.edge.end::<D>()?;
         let beyond = setting.edges.0[axis][usize::from(upper)];
         if matches!(beyond, Edge::MirrorOdd | Edge::Periodic) {
-            let message = format!("the edge is {}: no surface there can carry a traction", beyond.name());
+            let message = format!(
+                "the {} edge is {}: no surface there can carry a traction",
+                self.edge.name(),
+                beyond.described()
+            );
             return Err(Wrong::new("edge", message, "pull at a free edge, or use a body force"));
         }
         let holds = self.edge.holds(setting.grid, 1)?;
         let nodes: Vec<_> = setting.grid.each().filter(|node| holds(*node)).collect();
+        if nodes.is_empty() {
+            let message = format!("holes have removed every node along the {} edge", self.edge.name());
+            return Err(Wrong::new("edge", message, "pull at another edge, or take a smaller hole"));
+        }
         let density = self.stress_pa / setting.grid.spacing;
         let axis = self.axis.index::<D>()?;
         Ok(Acts::Force(Box::new(Load::new(setting.grid, "traction", axis, density, &nodes, history))))

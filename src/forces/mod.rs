@@ -96,7 +96,7 @@ fn reach_of<const D: usize>(family: impl IntoIterator<Item = FamilyBond<D>>) -> 
     offsets.map(|n| n.unsigned_abs() as usize).max().unwrap_or(0)
 }
 
-/// Whether a bond exists: both ends are in the body, or beyond an edge that mirrors or repeats it.
+/// Whether the bond from a node to its neighbour at an offset exists.
 pub trait Present<const D: usize>: Fn([isize; D], [i32; D]) -> bool {}
 impl<const D: usize, F: Fn([isize; D], [i32; D]) -> bool> Present<D> for F {}
 
@@ -112,15 +112,11 @@ fn whole<const D: usize>(
     family: &[FamilyBond<D>],
     present: &impl Present<D>,
 ) -> impl Fn([isize; D]) -> bool {
-    let complete: Vec<bool> = grid
-        .each()
-        .map(|node| {
-            family.iter().all(|bond| present(node, bond.offset) && present(node, bond.offset.map(|n| -n)))
-        })
-        .collect();
-    let columns = grid.nodes[0];
-    move |node: [isize; D]| {
-        let row = node.get(1).copied().unwrap_or(0) as usize;
-        complete[row * columns + node[0] as usize]
+    let mut complete = vec![false; grid.cells()];
+    for node in grid.each() {
+        complete[grid.number(node)] =
+            family.iter().all(|bond| present(node, bond.offset) && present(node, bond.offset.map(|n| -n)));
     }
+    let grid = grid.clone();
+    move |node| complete[grid.number(node)]
 }

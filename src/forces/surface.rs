@@ -1,4 +1,4 @@
-//! Surface correction: factors for bonds near free edges, where families are cut off and the body is too soft.
+//! Surface correction: factors for bonds near free edges, notches and holes, where families are cut off and the body is too soft.
 //!
 //! Energy (Madenci & Oterkus 2014, Peridynamic Theory and Its Applications, ch. 4): λ_i is the energy density of a bulk
 //! node over that of node i, both stretched uniformly along an axis; a bond takes the mean of its ends, between the axes
@@ -38,7 +38,8 @@ pub struct Factors<const D: usize> {
     connectivity: Connectivity<D>,
     units: Vec<[f64; D]>,
     offsets: Vec<[i32; D]>,
-    /// By node, row by row: bulk over node, energies along each axis, or the counted volume alone.
+    grid: Grid<D>,
+    /// By cell, row by row: bulk over node, energies along each axis, or the counted volume alone.
     of_node: Vec<[f64; D]>,
 }
 
@@ -68,13 +69,18 @@ impl<const D: usize> Factors<D> {
             })
         };
         let bulk = total(&|_| true);
-        let of = |node| {
+        let mut of_node = vec![[1.0; D]; grid.cells()];
+        for node in grid.each() {
             let own = total(&|offset| connectivity.present(node, offset));
-            std::array::from_fn(|axis| if own[axis] == bulk[axis] { 1.0 } else { bulk[axis] / own[axis] })
-        };
+            of_node[grid.number(node)] =
+                std::array::from_fn(
+                    |axis| if own[axis] == bulk[axis] { 1.0 } else { bulk[axis] / own[axis] },
+                );
+        }
         Self {
             correction,
-            of_node: grid.each().map(of).collect(),
+            grid: grid.clone(),
+            of_node,
             units: family.iter().map(|bond| bond.direction.unit).collect(),
             offsets: family.iter().map(|bond| bond.offset).collect(),
             connectivity,
@@ -120,8 +126,6 @@ impl<const D: usize> Factors<D> {
     }
 
     fn at(&self, node: [isize; D]) -> [f64; D] {
-        let Some(image) = self.connectivity.image(node) else { return [1.0; D] };
-        let row = image.get(1).copied().unwrap_or(0);
-        self.of_node[(row * self.connectivity.nodes()[0] as isize + image[0]) as usize]
+        self.connectivity.image(node).map_or([1.0; D], |image| self.of_node[self.grid.number(image)])
     }
 }

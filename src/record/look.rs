@@ -35,15 +35,21 @@ pub(super) fn book<const D: usize>(
 pub(super) fn trace<const D: usize>(probe: &Probe<D>, grid: &Grid<D>) -> Trace {
     let components = ["displacement_x", "displacement_y"];
     let displacement = |at: [f64; D]| {
-        (0..D).map(move |c| Column { quantity: components[c], unit: "m", at: Some(at.to_vec()) })
+        (0..D).map(move |c| Column {
+            quantity: components[c],
+            unit: "m",
+            at: Some(at.to_vec()),
+            removed: false,
+        })
     };
-    let whole = |quantity, unit| Column { quantity, unit, at: None };
+    let of_node = |node| {
+        displacement(grid.position(node)).map(move |column| Column { removed: !grid.has(node), ..column })
+    };
+    let whole = |quantity, unit| Column { quantity, unit, at: None, removed: false };
     let columns = match probe.watch {
         Watch::Point { at } => displacement(at).collect(),
-        Watch::Strain { at } => vec![Column { quantity: "strain", unit: "1", at: Some(vec![at]) }],
-        Watch::Line { along, through } => {
-            line(grid, along, through).flat_map(|node| displacement(grid.position(node))).collect()
-        }
+        Watch::Strain { at } => vec![Column { at: Some(vec![at]), ..whole("strain", "1") }],
+        Watch::Line { along, through } => line(grid, along, through).flat_map(of_node).collect(),
         Watch::Energies => {
             let names = ["kinetic", "elastic", "work_of_loads", "work_of_damping", "work_of_driven_nodes"];
             names.map(|name| whole(name, "J")).to_vec()
@@ -61,7 +67,8 @@ pub(super) fn look<const D: usize>(probe: &Probe<D>, march: &March<'_, D>, trace
         Watch::Point { at } => (march.time(), point(grid, edges, u, at).to_vec()),
         Watch::Strain { at } => (march.time(), vec![strain(grid, edges, u, at)]),
         Watch::Line { along, through } => {
-            let row = line(grid, along, through).flat_map(|node| displacement_of(grid, u, node)).collect();
+            let of = |node| if grid.has(node) { displacement_of(grid, u, node) } else { [f64::NAN; D] };
+            let row = line(grid, along, through).flat_map(of).collect();
             (march.time(), row)
         }
         Watch::Momentum if march.step() > 0 => (march.time() - half, momentum(march).to_vec()),
@@ -76,8 +83,8 @@ fn displacement_of<const D: usize>(grid: &Grid<D>, u: &[f64], node: [isize; D]) 
     std::array::from_fn(|axis| u[place + axis * grid.stride()])
 }
 
-/// The nodes of a line probe.
-fn line<const D: usize>(
+/// The cells of a line probe; in a hole they are without nodes.
+pub(crate) fn line<const D: usize>(
     grid: &Grid<D>,
     along: usize,
     through: f64,
@@ -101,22 +108,33 @@ fn around(t: f64, count: usize, [below, above]: [Edge; 2]) -> (isize, f64) {
     (lower, if first == last { 0.0 } else { t - lower as f64 })
 }
 
-/// Displacement at a place, linear between nodes.
-fn point<const D: usize>(grid: &Grid<D>, edges: &Edges<D>, u: &[f64], at: [f64; D]) -> [f64; D] {
+/// The nodes around a place, ghosts among them, and the share that each has in what is seen there.
+pub(crate) fn corners<const D: usize>(
+    grid: &Grid<D>,
+    edges: &Edges<D>,
+    at: [f64; D],
+) -> impl Iterator<Item = ([isize; D], f64)> + use<D> {
     let near: [(isize, f64); D] =
         std::array::from_fn(|axis| around(at[axis] / grid.spacing - 0.5, grid.nodes[axis], edges.0[axis]));
-    let mut total = [0.0; D];
-    for corner in 0..1_usize << D {
+    (0..1_usize << D).map(move |corner| {
         let upper = |axis: usize| corner >> axis & 1 == 1;
-        let share: f64 =
-            (0..D).map(|axis| if upper(axis) { near[axis].1 } else { 1.0 - near[axis].1 }).product();
-        if share != 0.0 {
-            let node = std::array::from_fn(|axis| near[axis].0 + isize::from(upper(axis)));
-            let values = displacement_of(grid, u, node);
-            (0..D).for_each(|axis| total[axis] += share * values[axis]);
+        let share = (0..D).map(|axis| if upper(axis) { near[axis].1 } else { 1.0 - near[axis].1 }).product();
+        (std::array::from_fn(|axis| near[axis].0 + isize::from(upper(axis))), share)
+    })
+}
+
+/// Displacement at a place, linear between nodes. The share of nodes in a hole is rounding, or the plan refuses it.
+fn point<const D: usize>(grid: &Grid<D>, edges: &Edges<D>, u: &[f64], at: [f64; D]) -> [f64; D] {
+    let (mut total, mut missing) = ([0.0; D], 0.0);
+    for (node, share) in corners(grid, edges, at).filter(|(_, share)| *share != 0.0) {
+        if grid.pierced() && edges.image(grid, node).is_none() {
+            missing += share;
+            continue;
         }
+        let values = displacement_of(grid, u, node);
+        (0..D).for_each(|axis| total[axis] += share * values[axis]);
     }
-    total
+    if missing == 0.0 { total } else { total.map(|sum| sum / (1.0 - missing)) }
 }
 
 /// Strain of a bar at a place: on a cell face the difference quotient of its two nodes.

@@ -11,6 +11,7 @@ use crate::model::Model;
 use crate::plan::Plan;
 use crate::scene::{Scene, Watch, Wrong};
 use look::{book, look, trace};
+pub(crate) use look::{corners, line};
 use snapshot::Due;
 use thiserror::Error;
 
@@ -42,6 +43,12 @@ pub struct Trace {
 }
 
 impl Trace {
+    /// All values, look by look, without those of places where no node stands.
+    pub fn known(&self) -> impl Iterator<Item = f64> {
+        let values = self.rows.iter().flat_map(|row| row.iter().zip(&self.columns));
+        values.filter(|(_, column)| !column.removed).map(|(value, _)| *value)
+    }
+
     /// One column over time.
     pub fn column(&self, index: usize) -> Vec<f64> {
         self.rows.iter().map(|row| row[index]).collect()
@@ -55,6 +62,8 @@ pub struct Column {
     pub unit: &'static str,
     /// In m; `None` for quantities of the whole body.
     pub at: Option<Vec<f64>>,
+    /// Whether no node stands there, since it lies in a hole: then there is no value, all are NaN.
+    pub removed: bool,
 }
 
 /// Why a run has no record.

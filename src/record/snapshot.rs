@@ -74,7 +74,7 @@ fn snapshot<const D: usize>(scene: &Scene<D>, march: &March<'_, D>, name: &str, 
 /// A field of the grid without its halo, component by component.
 fn components<const D: usize>(grid: &Grid<D>, field: &[f64]) -> Vec<Vec<f64>> {
     let component = |axis: usize| {
-        let mut values = vec![f64::NAN; grid.count()];
+        let mut values = vec![f64::NAN; grid.nodes.iter().product()];
         for node in grid.each() {
             let row = node.get(1).copied().unwrap_or(0) as usize;
             values[row * grid.nodes[0] + node[0] as usize] = field[grid.place(node) + axis * grid.stride()];

@@ -5,6 +5,7 @@
 
 mod effect;
 mod history;
+mod hole;
 mod initial;
 mod notch;
 mod place;
@@ -16,6 +17,7 @@ mod wrong;
 
 pub use effect::{Acts, Effect, Setting};
 pub use history::{History, HistoryAsked, HistoryShape};
+pub use hole::{Hole, HoleAsked};
 pub use initial::{Initial, InitialAsked, Quantity, Shape};
 pub use notch::{Notch, NotchAsked};
 pub use place::{Axis, Region, Side};
@@ -27,6 +29,7 @@ pub use wrong::Wrong;
 
 use crate::constraints::Edges;
 use crate::forces::surface::Correction;
+use crate::grid::Grid;
 use crate::lattice::Lattice;
 use crate::material::{Body, Material};
 use schemars::JsonSchema;
@@ -74,7 +77,9 @@ pub struct Scene<const D: usize> {
     pub edges: Edges<D>,
     /// Cuts through a plate; a bar has none.
     pub notches: Vec<Notch>,
-    /// For bonds near free edges and notches.
+    /// Round holes through a plate; a bar has none.
+    pub holes: Vec<Hole>,
+    /// For bonds near free edges, notches and holes.
     pub surface: Correction,
     /// Displacements at t = 0, summed.
     pub displacement: Vec<Initial<D>>,
@@ -111,6 +116,7 @@ impl<const D: usize> Scene<D> {
             operator: Operator::Stencil,
             edges: Edges::default(),
             notches: Vec::new(),
+            holes: Vec::new(),
             surface: Correction::None,
             displacement: Vec::new(),
             velocity: Vec::new(),
@@ -129,6 +135,26 @@ impl<const D: usize> Scene<D> {
     /// Size of the body in m.
     pub fn size(&self) -> [f64; D] {
         self.nodes.map(|nodes| nodes as f64 * self.spacing)
+    }
+
+    /// Its holes with their images beyond its edges.
+    pub(crate) fn voids(&self) -> Vec<Hole> {
+        Hole::with_images(&self.holes, &self.edges, self.size())
+    }
+
+    /// Its block of the lattice, without the nodes that lie in holes; `halo` is the largest reach of any force.
+    pub fn grid(&self, halo: usize) -> Grid<D> {
+        let grid = Grid::new(self.nodes, self.spacing, halo);
+        let voids = self.voids();
+        if voids.is_empty() {
+            return grid;
+        }
+        let whole = grid.clone();
+        let place = |node| {
+            let at = whole.position(node);
+            std::array::from_fn(|axis| at.get(axis).copied().unwrap_or(0.0))
+        };
+        grid.keeping(|node| !voids.iter().any(|hole| hole.holds(place(node), self.spacing)))
     }
 
     /// Volume of a cell in m³.

@@ -35,6 +35,16 @@ pub enum Side {
 }
 
 impl Side {
+    /// In study files and messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Bottom => "bottom",
+            Self::Top => "top",
+        }
+    }
+
     /// The axis it ends and whether it is the upper end.
     pub fn end<const D: usize>(self) -> Result<(usize, bool), Wrong> {
         match self {
@@ -85,8 +95,12 @@ impl Region {
                 let depth = self.depth_m.map_or(grid.spacing, |depth| depth.0);
                 let layers = (depth / grid.spacing + 1e-9).floor() as usize;
                 if layers == 0 {
-                    let message = format!("{depth} m is thinner than a cell of {} m", grid.spacing);
-                    return Err(Wrong::new("depth_m", message, "take whole cells, at least one"));
+                    let message = format!(
+                        "a layer of {depth} m is thinner than a cell of {} m: it holds no node",
+                        grid.spacing
+                    );
+                    let help = format!("take {} m or more, or leave depth_m out for one cell", grid.spacing);
+                    return Err(Wrong::new("depth_m", message, help));
                 }
                 let (axis, _) = side.end::<D>()?;
                 if layers > grid.nodes[axis] {
@@ -121,7 +135,11 @@ impl Region {
             }
         };
         if found.is_empty() {
-            return Err(Wrong::new("", "the region holds no node", "widen it to hold the centre of a cell"));
+            let help = match grid.pierced() {
+                true => "widen it to hold the centre of a cell that no hole has removed",
+                false => "widen it to hold the centre of a cell",
+            };
+            return Err(Wrong::new("", "the region holds no node", help));
         }
         Ok(found)
     }

@@ -139,6 +139,7 @@ mod tests {
                 effects_off: vec!["damage".into()],
                 operator: "half families".into(),
                 nodes: 1000,
+                band_nodes: 0,
                 bonds: 3000,
                 bytes_per_node: 48.0,
                 snapshot_bytes: 0,

@@ -141,6 +141,7 @@ mod tests {
             effects_off: vec!["damage".into(), "contact".into()],
             operator: operator.into(),
             nodes: 1000,
+            band_nodes: 0,
             bonds: 3000,
             bytes_per_node: 56.0,
             snapshot_bytes: 0,

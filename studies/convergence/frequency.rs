@@ -142,7 +142,7 @@ where
     let level = Level { m, spacing };
     let weights = Weights { kernel, volume_rule, calibrated };
     let sequence = Sequence { refine: Refine::Delta, weights, levels: vec![level] };
-    let mut march = of.ready(&sequence, level)?;
+    let mut march = of.ready(&sequence)?.remove(0);
     let own = In::polarisation(&whole::lattice(&march.scene), march.wavenumber, of.branch);
     march.amplitude = own.ok_or_else(|| {
         Wrong::new("lattice", "this lattice carries no such wave", "take another lattice or a longer wave")
@@ -153,7 +153,7 @@ where
     march.scene.snapshots.clear();
     let watch = Watch::Point { at: [0.5 * spacing; D] };
     march.scene.probes = vec![Probe { name: CLOCK.into(), watch, every: 1 }];
-    march.plan = Plan::of(&march.scene)?;
+    march.plan = Plan::below(&march.scene, march.plan.time_step_s / march.plan.time_step_over_limit)?;
     Ok(march)
 }
 

@@ -88,7 +88,7 @@ impl Asked for PointPulseAsked {
 }
 
 impl PointPulse {
-    fn ready<const D: usize>(&self, sequence: &Sequence, level: Level) -> Result<Marched<D>, Wrong>
+    fn ready<const D: usize>(&self, sequence: &Sequence) -> Result<Vec<Marched<D>>, Wrong>
     where
         In: Space<D>,
     {
@@ -105,8 +105,8 @@ impl PointPulse {
                 ..Scene::bare(self.material, self.body, lattice, nodes, spacing, time)
             })
         };
-        let (scene, plan) = whole::stepped(sequence, level, self.safety, scene)?;
-        Ok(Marched { scene, plan })
+        let marches = whole::stepped(sequence, self.safety, scene)?;
+        Ok(marches.into_iter().map(|(scene, plan)| Marched { scene, plan }).collect())
     }
 
     /// In 1/m².

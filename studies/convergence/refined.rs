@@ -111,7 +111,7 @@ where
         title: &str,
         problem: P,
         sequences: Vec<Sequence>,
-        ready: impl Fn(&P, &Sequence, Level) -> Result<P::Level, Wrong>,
+        ready: impl Fn(&P, &Sequence) -> Result<Vec<P::Level>, Wrong>,
     ) -> Result<Self, Wrong> {
         let finest: Vec<_> = sequences.iter().map(|one| one.lattice(one.finest())).collect();
         let mut tracks = Vec::new();
@@ -120,8 +120,7 @@ where
                 In::reach(sequence.lattice(*level))
                     .map_err(|unusable| Wrong::new("path.m", unusable.to_string(), unusable.cure()))?;
             }
-            let levels = sequence.levels.iter().map(|level| ready(&problem, &sequence, *level));
-            let levels = levels.collect::<Result<_, _>>()?;
+            let levels = ready(&problem, &sequence)?;
             let right_moduli = sequence.levels.iter().all(|level| has_right_moduli(&sequence, *level));
             let name = if sequence.refine == Refine::Delta { name } else { without_m(&name) };
             let track = Track { name, sequence, levels, right_moduli };

@@ -115,7 +115,11 @@ impl<const D: usize> Manufactured<D>
 where
     In: Space<D>,
 {
-    fn ready(&self, sequence: &Sequence, level: Level) -> Result<Rested<D>, Wrong> {
+    fn ready(&self, sequence: &Sequence) -> Result<Vec<Rested<D>>, Wrong> {
+        sequence.levels.iter().map(|level| self.level(sequence, *level)).collect()
+    }
+
+    fn level(&self, sequence: &Sequence, level: Level) -> Result<Rested<D>, Wrong> {
         let lattice = sequence.lattice(level);
         let (nodes, spacing) =
             cells([self.side; D], level.spacing).map_err(|wrong| Wrong { key: "path".into(), ..wrong })?;
@@ -130,7 +134,7 @@ where
             let message = format!("a frame of {reach} nodes leaves little of {nodes:?}");
             return Err(Wrong::new("path", message, "take a smaller m or dx, or a larger side_m"));
         }
-        let plan = Plan::of(&scene)?;
+        let plan = Plan::at_rest(&scene)?;
         Ok(Rested { scene, plan, held })
     }
 

@@ -174,12 +174,15 @@ where
         }))
     }
 
-    /// The march of one level.
-    pub fn ready(&self, sequence: &Sequence, level: Level) -> Result<Marched<D>, Wrong> {
-        let (wavenumber, amplitude) = self.shape(sequence, level)?;
+    /// The marches of all levels.
+    pub fn ready(&self, sequence: &Sequence) -> Result<Vec<Marched<D>>, Wrong> {
         let scene = |level, step| self.scene(sequence, level, step);
-        let (scene, plan) = whole::stepped(sequence, level, self.safety, scene)?;
-        Ok(Marched { scene, plan, wavenumber, amplitude })
+        let scenes = whole::stepped(sequence, self.safety, scene)?;
+        let march = |((scene, plan), level): ((Scene<D>, Plan), &Level)| {
+            let (wavenumber, amplitude) = self.shape(sequence, *level)?;
+            Ok(Marched { scene, plan, wavenumber, amplitude })
+        };
+        scenes.into_iter().zip(&sequence.levels).map(march).collect()
     }
 
     fn scene(&self, sequence: &Sequence, level: Level, step: StepRule) -> Result<Scene<D>, Wrong> {

@@ -26,21 +26,28 @@ pub fn last(record: &Record) -> Result<&[Vec<f64>], String> {
     }
 }
 
-/// The scene of a level with its plan: at `safety` of the limit where the path begins, and the same cΔt/Δx all along it.
-/// (At fixed δ the limit tends to a constant, and so would the error of the time step.)
+/// The scenes of all levels with their plans: at `safety` of the limit where the path begins, and the same cΔt/Δx all
+/// along it. (At fixed δ the limit tends to a constant, and so would the error of the time step.)
 pub fn stepped<const D: usize>(
     sequence: &Sequence,
-    level: Level,
     safety: f64,
     scene: impl Fn(Level, StepRule) -> Result<Scene<D>, Wrong>,
-) -> Result<(Scene<D>, Plan), Wrong> {
+) -> Result<Vec<(Scene<D>, Plan)>, Wrong> {
     let coarsest = sequence.levels[0];
     let coarse = Plan::of(&scene(coarsest, StepRule::OfLimit(safety))?)?;
-    let mut made = scene(level, StepRule::OfLimit(safety))?;
-    let steps = (coarse.steps as f64 * coarsest.spacing / level.spacing - 1e-9).ceil();
-    made.time.step = StepRule::Given { seconds: made.time.duration / steps, beyond_limit: false };
-    let plan = Plan::of(&made)?;
-    Ok((made, plan))
+    let limit = coarse.time_step_s / coarse.time_step_over_limit;
+    let level = |&level: &Level| {
+        let mut made = scene(level, StepRule::OfLimit(safety))?;
+        let finer = coarsest.spacing / level.spacing;
+        let steps = (coarse.steps as f64 * finer - 1e-9).ceil();
+        made.time.step = StepRule::Given { seconds: made.time.duration / steps, beyond_limit: false };
+        let plan = match level.m == coarsest.m {
+            true => Plan::below(&made, limit / finer)?,
+            false => Plan::of(&made)?,
+        };
+        Ok((made, plan))
+    };
+    sequence.levels.iter().map(level).collect()
 }
 
 /// The lattice of a scene as a medium.

@@ -8,9 +8,9 @@ const MEANT: [(&[&str], &str, &str); 3] = [
         "did you mean `size_m`? it is the length of a bar, [length, height] of a plate",
     ),
     (
-        &["fixed", "clamped", "held", "fix", "clamp", "wall", "roller", "symmetry", "dirichlet"],
+        &["fixed", "clamped", "held", "fix", "clamp", "wall", "symmetry", "dirichlet"],
         "mirror_odd",
-        "to hold an edge: mirror_odd (the displacement across the edge is odd: 0 there), or prescribed_motion with displacement_m = 0",
+        "to hold an edge: mirror_odd, also called roller (the edge does not leave its plane, and slides along it), or prescribed_motion with displacement_m = 0",
     ),
     (&["open", "none", "neumann"], "free", "did you mean `free`? bonds beyond such an edge are missing"),
 ];

@@ -76,7 +76,7 @@ fn loads<const D: usize>(scene: &Scene<D>) -> Option<Vec<Box<dyn Force<D>>>> {
     if !scene.edges.0.as_flattened().iter().all(open) {
         return None;
     }
-    let grid = Grid::new(scene.nodes, scene.spacing, 0);
+    let grid = scene.grid(0);
     let setting = Setting::of(scene, &grid);
     let load = |acts| match acts {
         Ok(Acts::Force(force)) if force.class() == Class::Load => Some(force),
@@ -91,7 +91,7 @@ fn momentum_error<const D: usize>(scene: &Scene<D>, record: &Record) -> Option<f
         trace.times.iter().map(|t| (t / record.plan.time_step_s + 0.5).round() as u64).collect();
     let expected = momentum(scene, &record.plan, &steps)?;
     let energies = record.trace(BALANCE)?.rows.iter().map(|row| row[0].abs().max(row[1].abs()));
-    let mass = scene.material.density * scene.cell_volume() * scene.nodes.iter().product::<usize>() as f64;
+    let mass = scene.material.density * scene.cell_volume() * record.plan.nodes as f64;
     let scale = (2.0 * mass * energies.fold(0.0, f64::max)).sqrt();
     let errors =
         trace.rows.iter().zip(&expected).flat_map(|(row, expected)| {
@@ -104,7 +104,7 @@ fn momentum_error<const D: usize>(scene: &Scene<D>, record: &Record) -> Option<f
 /// visited. Leapfrog gives it by v(½) = v₀ + ½Δt a₀ and v(n + ½) = v(n − ½) + Δt a(n).
 fn momentum<const D: usize>(scene: &Scene<D>, plan: &Plan, steps: &[u64]) -> Option<Vec<[f64; D]>> {
     let loads = loads(scene)?;
-    let grid = Grid::new(scene.nodes, scene.spacing, 0);
+    let grid = scene.grid(0);
     let mut total = [0.0; D];
     for field in &scene.velocity {
         let sum: f64 = grid.each().map(|node| field.at(grid.position(node))).sum();

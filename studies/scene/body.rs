@@ -9,7 +9,8 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
 use pd_verify::scene::{
-    Effect, Initial, InitialAsked, Notch, NotchAsked, Positive, Probe, Quantity, Scene, Watch, Wrong,
+    Effect, Hole, HoleAsked, Initial, InitialAsked, Notch, NotchAsked, Positive, Probe, Quantity, Scene,
+    Watch, Wrong,
 };
 use std::sync::Arc;
 
@@ -30,11 +31,28 @@ fn notches<const D: usize>(asked: &MarchAsked, nodes: [usize; D], spacing: f64) 
     if D == 1 && !written.is_empty() {
         return Err(Wrong::new("notch", "a bar has no notches", "leave them out, or take a plate"));
     }
-    let size = std::array::from_fn(|axis| nodes.get(axis).map_or(0.0, |&count| count as f64 * spacing));
+    let size = plate_size(nodes, spacing);
     let one = |(index, notch): (usize, &NotchAsked)| {
         notch.check(size, spacing).map_err(|wrong| wrong.inside(&format!("notch[{index}]")))
     };
     written.iter().enumerate().map(one).collect()
+}
+
+/// The holes of a plate.
+fn holes<const D: usize>(asked: &MarchAsked, nodes: [usize; D], spacing: f64) -> Result<Vec<Hole>, Wrong> {
+    let written = asked.hole.as_deref().unwrap_or_default();
+    if D == 1 && !written.is_empty() {
+        return Err(Wrong::new("hole", "a bar has no holes", "leave them out, or take a plate"));
+    }
+    let size = plate_size(nodes, spacing);
+    let one = |(index, hole): (usize, &HoleAsked)| {
+        hole.check(size).map_err(|wrong| wrong.inside(&format!("hole[{index}]")))
+    };
+    written.iter().enumerate().map(one).collect()
+}
+
+fn plate_size<const D: usize>(nodes: [usize; D], spacing: f64) -> [f64; 2] {
+    std::array::from_fn(|axis| nodes.get(axis).map_or(0.0, |&count| count as f64 * spacing))
 }
 
 /// The scene on one lattice with its plan, and whether energy and momentum are booked.
@@ -60,6 +78,7 @@ pub fn scene<const D: usize>(
         operator: asked.operator.unwrap_or_default(),
         edges,
         notches: notches::<D>(asked, nodes, spacing)?,
+        holes: holes::<D>(asked, nodes, spacing)?,
         surface: asked.surface_correction.unwrap_or_default(),
         displacement: initial(asked, Quantity::Displacement)?,
         velocity: initial(asked, Quantity::Velocity)?,

@@ -5,16 +5,43 @@ use pd_verify::scene::Wrong;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+/// What lies beyond one edge, in words.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EdgeName {
+    /// Bonds beyond the edge are missing.
+    Free,
+    /// A plane of symmetry: the edge slides along its plane and does not leave it. Also called `roller`.
+    MirrorOdd,
+    /// Another word for `mirror_odd`.
+    Roller,
+    /// No strain across the edge, which does not slide along its plane.
+    MirrorEven,
+    /// The body repeats; the opposite edge must be periodic too.
+    Periodic,
+}
+
+impl From<EdgeName> for Edge {
+    fn from(name: EdgeName) -> Self {
+        match name {
+            EdgeName::Free => Self::Free,
+            EdgeName::MirrorOdd | EdgeName::Roller => Self::MirrorOdd,
+            EdgeName::MirrorEven => Self::MirrorEven,
+            EdgeName::Periodic => Self::Periodic,
+        }
+    }
+}
+
 /// What lies beyond each edge. Default: `free`.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EdgesAsked {
-    pub left: Option<Edge>,
-    pub right: Option<Edge>,
+    pub left: Option<EdgeName>,
+    pub right: Option<EdgeName>,
     /// Of a plate.
-    pub bottom: Option<Edge>,
+    pub bottom: Option<EdgeName>,
     /// Of a plate.
-    pub top: Option<Edge>,
+    pub top: Option<EdgeName>,
 }
 
 impl EdgesAsked {
@@ -26,6 +53,8 @@ impl EdgesAsked {
             return Err(Wrong::new(key, message, "leave it out: a bar ends left and right"));
         }
         let pairs = [[self.left, self.right], [self.bottom, self.top]];
-        Ok(Edges(std::array::from_fn(|axis| pairs[axis].map(Option::unwrap_or_default))))
+        Ok(Edges(std::array::from_fn(|axis| {
+            pairs[axis].map(|name| name.map(Edge::from).unwrap_or_default())
+        })))
     }
 }

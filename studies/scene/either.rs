@@ -72,12 +72,20 @@ fn bonds<const D: usize>(scene: &Scene<D>) -> usize {
     Stencil::<D>::new(scene.lattice).map_or(0, |stencil| 2 * stencil.bonds.len())
 }
 
+/// The place across an axis that is nearest to the middle and where holes have left a node.
+fn middle<const D: usize>(scene: &Scene<D>, across: usize) -> f64 {
+    let half = 0.5 * scene.size()[across];
+    let grid = scene.grid(0);
+    let places = grid.each().map(|node| grid.position(node)[across]);
+    let nearest = places.min_by(|a, b| (a - half).abs().total_cmp(&(b - half).abs()));
+    if grid.pierced() { nearest.unwrap_or(half) } else { half }
+}
+
 fn beginning<const D: usize>(scene: &Scene<D>, operator: Operator, steps: u64, plan: &Plan) -> Scene<D> {
     let seconds = plan.time_step_s;
     let every = (steps / 20).max(1);
-    let size = scene.size();
     let lines = (0..D).map(|along| {
-        let through = if D == 1 { 0.0 } else { 0.5 * size[1 - along] };
+        let through = if D == 1 { 0.0 } else { middle(scene, 1 - along) };
         Probe { name: format!("(line {along})"), watch: Watch::Line { along, through }, every }
     });
     let places = |watch: &Watch<D>| matches!(watch, Watch::Point { .. } | Watch::Line { .. });

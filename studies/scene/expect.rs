@@ -21,7 +21,7 @@ pub struct ExpectAsked {
     pub probe: String,
     /// A quantity that the probe sees, as in `probes.csv`.
     pub quantity: String,
-    /// Of a line: the place along it; the nearest node is taken.
+    /// Of a line: the place along it; the nearest node is taken, never one that a hole has removed.
     pub at_m: Option<f64>,
     /// Linear between two looks.
     pub at_s: f64,
@@ -178,7 +178,8 @@ impl Expect {
     /// The column of the quantity; of a line the one nearest to the place.
     fn column(&self, trace: &Trace) -> Option<usize> {
         let columns = trace.columns.iter().enumerate();
-        let mut named = columns.filter(|(_, column)| column.quantity == self.asked.quantity);
+        let mut named =
+            columns.filter(|(_, column)| column.quantity == self.asked.quantity && !column.removed);
         let Some(place) = self.asked.at_m else { return named.next().map(|(index, _)| index) };
         let away =
             |at: &Option<Vec<f64>>| at.as_ref().map_or(f64::INFINITY, |at| (at[self.along] - place).abs());

@@ -55,6 +55,9 @@ fn figure(title: &str, probe: &str, seen: &[Seen<'_>], place: &Place) -> Figure 
         caption += &format!(" The first {MOST_PANELS} of {} panels; probes.csv has all.", panels.len());
         panels.truncate(MOST_PANELS);
     }
+    if columns.iter().any(|column| column.removed) {
+        caption += " In a hole there is nothing to draw.";
+    }
     let mut figure = Figure::new(
         format!("{}.{probe}", place.case),
         format!("{title}: {probe}"),

@@ -24,7 +24,7 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
 use pd_verify::record::{Failure, Record};
-use pd_verify::scene::{InitialAsked, NotchAsked, Operator, Positive, Rotations, Wrong};
+use pd_verify::scene::{HoleAsked, InitialAsked, NotchAsked, Operator, Positive, Rotations, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -57,6 +57,8 @@ pub struct MarchAsked {
     pub edges: Option<EdgesAsked>,
     /// Of a plate: straight cuts, which part the bonds that cross them.
     pub notch: Option<Vec<NotchAsked>>,
+    /// Of a plate: round holes, which remove the nodes within and cut the bonds across.
+    pub hole: Option<Vec<HoleAsked>>,
     /// Every combination is a scene.
     pub lattice: LatticeSweep,
     /// Fields at t = 0, summed.

@@ -111,8 +111,7 @@ fn momentum_is_claimed(case: &March) -> bool {
 /// Evidence for the claims from the records of the case's scenes, in their order.
 pub fn evidence(case: &March, records: &[&Record], subject: &dyn Subject) -> Vec<(String, Evidence)> {
     let pairs = || case.scenes.iter().zip(records);
-    let values =
-        records.iter().flat_map(|record| record.traces.iter().flat_map(|trace| trace.rows.iter().flatten()));
+    let values = records.iter().flat_map(|record| record.traces.iter().flat_map(|trace| trace.known()));
     let (mut seen, mut wild) = (0_u64, 0_u64);
     values.for_each(|value| {
         seen += 1;

@@ -44,9 +44,8 @@ impl Twice {
     pub fn difference(&self, subject: &dyn Subject) -> Result<Option<f64>, String> {
         let march = |scene: &Either| scene.march(subject).map_err(|failure| failure.to_string());
         let [stencil, bonds] = [march(&self.scenes[0])?, march(&self.scenes[1])?];
-        let values = |record: &Record| -> Vec<f64> {
-            record.traces.iter().flat_map(|trace| trace.rows.iter().flatten().copied()).collect()
-        };
+        let values =
+            |record: &Record| -> Vec<f64> { record.traces.iter().flat_map(|trace| trace.known()).collect() };
         let (a, b) = (values(&stencil), values(&bonds));
         if a.len() != b.len() {
             return Err("the two operators were not seen at the same places and times".to_owned());

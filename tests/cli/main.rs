@@ -2,6 +2,7 @@
 
 mod commands;
 #[cfg(unix)]
+mod holed;
 mod interruption;
 mod limits;
 mod place;

@@ -1,5 +1,6 @@
 //! Small bodies, lattices, edges and rough fields on which every implementation is tried, and sums over their bonds.
 
+use pd_verify::connectivity::Connectivity;
 use pd_verify::constraints::{Edge, Edges};
 use pd_verify::forces::surface::Correction;
 use pd_verify::forces::{FamilyBond, Now, family};
@@ -13,6 +14,19 @@ use pd_verify::scene::{Effect, Operator, Rotations, Scene, StepRule, Time};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::sync::Arc;
+
+/// Which components of a translation no edge resists: across a mirror the odd ones are held.
+pub fn kept<const D: usize>(edges: &Edges<D>) -> [bool; D] {
+    std::array::from_fn(|component| {
+        edges.0.iter().enumerate().all(|(axis, pair)| {
+            pair.iter().all(|edge| match edge {
+                Edge::Free | Edge::Periodic => true,
+                Edge::MirrorOdd => component != axis,
+                Edge::MirrorEven => component == axis,
+            })
+        })
+    })
+}
 
 /// u of rounding to nearest: a result differs from the exact one by at most u of its size.
 pub const UNIT: f64 = 0.5 * f64::EPSILON;
@@ -51,6 +65,7 @@ pub fn scene<const D: usize>(lattice: Lattice, nodes: [usize; D]) -> Scene<D> {
         operator: Operator::Stencil,
         edges: Edges::default(),
         notches: vec![],
+        holes: vec![],
         surface: Correction::None,
         displacement: vec![],
         velocity: vec![],
@@ -190,10 +205,11 @@ pub fn each_bond<const D: usize>(
 ) {
     let stencil = Stencil::<D>::new(scene.lattice).expect("a usable lattice");
     let half = family(&stencil, scene.modulus(), scene.spacing);
+    let connectivity = Connectivity::of(scene);
     for node in grid.each() {
         for bond in &half {
             for seen in [*bond, reversed(bond)] {
-                if scene.edges.present(scene.nodes, node, seen.offset) {
+                if connectivity.present(node, seen.offset) {
                     let far = std::array::from_fn(|axis| node[axis] + seen.offset[axis] as isize);
                     act(grid.place(node), grid.place(far), &seen);
                 }

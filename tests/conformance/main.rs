@@ -4,7 +4,10 @@
 mod bodies;
 mod by_hand;
 mod checks;
+mod corrected;
 mod costs;
+mod double_loop;
+mod holed;
 mod motion;
 mod notched;
 mod probes;
@@ -28,18 +31,14 @@ type Check<const D: usize> = fn(&Scene<D>, &Model<D>) -> Checked;
 
 /// The checks of any dimension that a scene is fit for.
 fn fit<const D: usize>(scene: &Scene<D>) -> Vec<(&'static str, Check<D>)> {
-    let edges = scene.edges.0.as_flattened();
-    let free = !scene.edges.any();
-    let mirrored = edges.iter().any(|edge| matches!(edge, Edge::MirrorOdd | Edge::MirrorEven));
-    let mut checks: Vec<(&'static str, Check<D>)> =
-        vec![("gradient", gradient), ("purity", purity), ("agreement", agrees_with_a_list)];
-    if free {
-        checks.push(("balance", balance));
-    }
-    if !mirrored {
-        checks.push(("translation", translation));
-    }
-    if free && scene.rotations == Rotations::Finite {
+    let mut checks: Vec<(&'static str, Check<D>)> = vec![
+        ("gradient", gradient),
+        ("purity", purity),
+        ("agreement", agrees_with_a_list),
+        ("balance", balance),
+        ("translation", translation),
+    ];
+    if !scene.edges.any() && scene.rotations == Rotations::Finite {
         checks.push(("rotation", rotation));
     }
     checks

@@ -5,6 +5,7 @@ use crate::checks::{Checked, same_bits};
 use crate::wrong::{Way, spoilt};
 use pd_verify::constraints::Edge::{Free, MirrorOdd, Periodic};
 use pd_verify::constraints::Edges;
+use pd_verify::forces::surface::Correction;
 use pd_verify::forces::{BodyForce, Damper, Damping};
 use pd_verify::ledger::Ledger;
 use pd_verify::march::March;
@@ -71,6 +72,12 @@ fn threads_change_nothing() {
             let plate = wide_plate(rotations, operator);
             assert!(model(&plate).grid.pieces() > 2);
             threads(&plate, &model(&plate), 4).unwrap();
+            let dx = plate.spacing;
+            let holes = vec![pd_verify::scene::Hole { centre: [75.0 * dx, 2.0 * dx], radius: 20.3 * dx }];
+            let notches =
+                vec![pd_verify::scene::Notch { from: [0.0, 70.0 * dx], to: [60.0 * dx, 75.0 * dx] }];
+            let pierced = Scene { holes, notches, surface: Correction::Energy, ..plate };
+            threads(&pierced, &model(&pierced), 4).unwrap();
         }
     }
 }

@@ -7,7 +7,7 @@ use pd_verify::forces::{BodyForce, Damping, Traction};
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::plan::Plan;
 use pd_verify::record::run;
-use pd_verify::scene::{Effect, Initial, Probe, Region, Scene, Shape, StepRule, Time, Watch};
+use pd_verify::scene::{Effect, Hole, Initial, Probe, Region, Scene, Shape, StepRule, Time, Watch};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -55,6 +55,89 @@ fn effects_that_contradict_each_other_or_their_edge() {
     let deep = json!({ "edge": "left", "depth_m": 1e20 });
     let push = json!({ "region": deep, "axis": "x", "density_n_m3": 1.0, "history": step() });
     refuses(with(vec![effect::<1, BodyForce>(push)]), "effect[0].region.depth_m", "larger than the body");
+}
+
+#[test]
+fn motions_against_mirrors_and_periods() {
+    let plate = scene::<2>(constant(2.0, VolumeRule::Linear, false), [20, 16]);
+    let with = |left: Edge, axis: &str| {
+        let region = json!({ "edge": "left" });
+        let asked = json!({ "region": region, "axis": axis, "displacement_m": 1e-3, "history": step() });
+        let right = if left == Edge::Periodic { left } else { Edge::Free };
+        let edges = Edges([[left, right], [Edge::Free; 2]]);
+        Scene { edges, effects: vec![effect::<2, PrescribedMotion>(asked)], ..plate.clone() }
+    };
+    refuses(with(Edge::Periodic, "x"), "effect[0].region.edge", "the left edge is periodic");
+    refuses(
+        with(Edge::MirrorOdd, "x"),
+        "effect[0].axis",
+        "mirror_odd (a roller): its mirror holds it along x",
+    );
+    refuses(with(Edge::MirrorEven, "y"), "effect[0].axis", "its mirror holds it along y");
+    for (edge, axis) in [(Edge::MirrorOdd, "y"), (Edge::MirrorEven, "x"), (Edge::Free, "x")] {
+        assert!(Plan::of(&with(edge, axis)).is_ok(), "{edge:?} {axis}");
+    }
+    let thin = json!({ "edge": "left", "depth_m": 0.5 * plate.spacing });
+    let push = json!({ "region": thin, "axis": "x", "density_n_m3": 1.0, "history": step() });
+    let thin = Scene { effects: vec![effect::<2, BodyForce>(push)], ..plate };
+    refuses(thin, "effect[0].region.depth_m", "thinner than a cell");
+}
+
+#[test]
+fn holes_that_take_nothing_or_too_much() {
+    let plate = scene::<2>(constant(2.0, VolumeRule::Linear, false), [20, 16]);
+    let dx = plate.spacing;
+    let hole = |x: f64, y: f64, radius: f64| Hole { centre: [x * dx, y * dx], radius: radius * dx };
+    let with = |holes: Vec<Hole>| Scene { holes, ..plate.clone() };
+    refuses(with(vec![hole(5.0, 5.0, 2.0), hole(9.0, 9.0, 0.7)]), "hole[1].radius_m", "removes no node");
+    refuses(with(vec![hole(5.0, 5.0, f64::NAN)]), "hole[0].radius_m", "is no hole");
+    refuses(with(vec![hole(10.0, 8.0, 13.0)]), "hole[0].radius_m", "the hole swallows the plate: no node");
+    // The corners are left, and each is alone.
+    refuses(with(vec![hole(10.0, 8.0, 12.1)]), "hole[0].radius_m", "swallows the plate: no two nodes");
+    assert!(Plan::of(&with(vec![hole(10.0, -10.0, 12.0)])).is_ok());
+    let held = Edges([[Edge::Free; 2], [Edge::MirrorOdd, Edge::Free]]);
+    let beyond = Scene { edges: held, ..with(vec![hole(10.0, -10.0, 12.0)]) };
+    refuses(beyond, "hole[0].centre_m", "beyond an edge that is mirror_odd");
+    let bar_with_a_hole = Scene { holes: vec![hole(5.0, 0.0, 2.0)], ..bar() };
+    refuses(bar_with_a_hole, "hole", "a bar has no holes");
+    // A row of nodes may be gone, but not the one that a traction pulls.
+    let mown = with(vec![Hole { centre: [10.0 * dx, 1000.0 * dx], radius: 984.6 * dx }]);
+    assert!(Plan::of(&mown).is_ok_and(|plan| plan.nodes == 320 - 20));
+    let pull = json!({ "edge": "top", "axis": "y", "stress_pa": 1e6, "history": step() });
+    let pulled = Scene { effects: vec![effect::<2, Traction>(pull)], ..mown };
+    refuses(pulled, "effect[0].edge", "removed every node along the top edge");
+}
+
+/// A point is seen where the nodes around it are there; on a node, only that one must be.
+#[test]
+fn probes_in_holes() {
+    let plate = scene::<2>(constant(2.0, VolumeRule::Linear, false), [20, 16]);
+    let dx = plate.spacing;
+    let holes = vec![Hole { centre: [10.0 * dx, 8.0 * dx], radius: 3.0 * dx }];
+    let displacement = vec![Initial { component: 0, amplitude: 1e-3, shape: Shape::Linear { along: 0 } }];
+    let plate = Scene { holes, displacement, ..plate };
+    let with = |watch| Scene { probes: vec![Probe { name: "p".into(), watch, every: 1 }], ..plate.clone() };
+    let point = |x: f64, y: f64| with(Watch::Point { at: [x * dx, y * dx] });
+    for at in [[10.0, 8.0], [7.2, 8.0], [12.9, 8.5]] {
+        refuses(point(at[0], at[1]), "probe[0].at_m", "nodes that a hole has removed");
+    }
+    assert!(Plan::of(&point(7.2, 7.9)).unwrap_err().help.contains("[0.02405, 0.02775] m"));
+    // Rounding in where a node stands does not count, nor does it blur what is seen there.
+    for x in [6.5, 6.5 * (1.0 + 1e-12)] {
+        let seen = run(&point(x, 8.5)).unwrap().trace("p").unwrap().column(0)[0];
+        assert!((seen / (6.5e-3 * dx) - 1.0).abs() < 1e-11, "{seen:e}");
+    }
+    let line = run(&with(Watch::Line { along: 0, through: 8.0 * dx })).unwrap();
+    let line = line.trace("p").unwrap();
+    let gone: Vec<bool> = line.rows[3].iter().map(|value| value.is_nan()).collect();
+    let said: Vec<bool> = line.columns.iter().map(|column| column.removed).collect();
+    assert_eq!(gone, said);
+    // Six nodes of two components, from 7.5 to 12.5.
+    assert_eq!(gone, (0..40).map(|n| (14..26).contains(&n)).collect::<Vec<_>>());
+    assert_eq!(line.known().count(), 28 * line.rows.len());
+    let wide = Hole { centre: [10.0 * dx, 8.0 * dx], radius: 7.9 * dx };
+    let cut = Scene { holes: vec![wide], ..with(Watch::Line { along: 1, through: 10.0 * dx }) };
+    refuses(cut, "probe[0].through_m", "from end to end");
 }
 
 #[test]

@@ -1,0 +1,185 @@
+//! What is refused before anything is computed: bodies, edges, holes and probes that cannot be.
+
+use super::counts::Counts;
+use crate::constraints::Edge;
+use crate::grid::Grid;
+use crate::lattice::{Stencil, Unusable};
+use crate::record::{corners, line};
+use crate::scene::{Hole, Rotations, Scene, Watch, Wrong};
+
+/// A block larger than this is a slip of the pen.
+const MAX_NODES: usize = 1 << 28;
+
+/// A share of a probe's place that is rounding.
+const NO_SHARE: f64 = 1e-9;
+
+/// The lattice of a body that can be.
+pub fn body<const D: usize>(scene: &Scene<D>) -> Result<Stencil<D>, Wrong> {
+    let unusable = |wrong: Unusable| Wrong::new("lattice.m", wrong.to_string(), wrong.cure());
+    let stencil = Stencil::<D>::new(scene.lattice).map_err(unusable)?;
+    let horizon = scene.lattice.m * scene.spacing;
+    let smallest = scene.size().into_iter().fold(f64::INFINITY, f64::min);
+    if horizon > smallest * (1.0 + 1e-12) {
+        let message = format!("the horizon of {horizon} m is larger than the body of {smallest} m");
+        return Err(Wrong::new("lattice.m", message, "take a smaller m or spacing, or a larger body"));
+    }
+    if scene.nodes.iter().try_fold(1_usize, |count, &n| count.checked_mul(n)).is_none_or(|n| n > MAX_NODES) {
+        let message = format!("{:?} nodes do not fit a block of {MAX_NODES}", scene.nodes);
+        return Err(Wrong::new("dx_m", message, "take a larger spacing or a smaller body"));
+    }
+    for (axis, [below, above]) in scene.edges.0.into_iter().enumerate() {
+        let key = ["edges.left", "edges.bottom"][axis];
+        if (below == Edge::Periodic) != (above == Edge::Periodic) {
+            let message = "a periodic edge needs a periodic edge on the other side";
+            return Err(Wrong::new(key, message, "make both edges of the axis periodic"));
+        }
+        let ghosts = below != Edge::Free || above != Edge::Free;
+        if ghosts && stencil.reach() > scene.nodes[axis] {
+            let message =
+                format!("the family reaches {} nodes, the body has {}", stencil.reach(), scene.nodes[axis]);
+            return Err(Wrong::new(key, message, "take a smaller horizon, a larger body, or free edges"));
+        }
+        let even = below == Edge::MirrorEven || above == Edge::MirrorEven;
+        if D == 2 && even && scene.rotations == Rotations::Finite {
+            let message = "mirror_even is no symmetry of a plate with finite rotations";
+            return Err(Wrong::new(key, message, "take rotations = \"small\", or mirror_odd"));
+        }
+    }
+    Ok(stencil)
+}
+
+/// Whether every probe stands where there is something to be seen.
+pub fn probes<const D: usize>(scene: &Scene<D>, grid: &Grid<D>) -> Result<(), Wrong> {
+    let size = scene.size();
+    for (index, probe) in scene.probes.iter().enumerate() {
+        let path = format!("probe[{index}]");
+        let outside = |axis: usize, at: f64| !(0.0..=size[axis]).contains(&at);
+        let refuse = |key: &str, at: f64, axis: usize| {
+            let message = format!(
+                "the probe \"{}\" stands outside the body: {at} m, and the body reaches from 0 to {} m",
+                probe.name, size[axis]
+            );
+            Err(Wrong::new(format!("{path}.{key}"), message, "move it into the body"))
+        };
+        match probe.watch {
+            Watch::Point { at } => {
+                if let Some(axis) = (0..D).find(|&axis| outside(axis, at[axis])) {
+                    return refuse("at_m", at[axis], axis);
+                }
+                in_the_body(scene, grid, &probe.name, at).map_err(|wrong| wrong.inside(&path))?;
+            }
+            Watch::Strain { at } if outside(0, at) => return refuse("at_m", at, 0),
+            Watch::Line { along, through } if D == 2 && outside(1 - along, through) => {
+                return refuse("through_m", through, 1 - along);
+            }
+            Watch::Line { along, through } if line(grid, along, through).all(|node| !grid.has(node)) => {
+                let message = format!("the probe \"{}\" runs through a hole from end to end", probe.name);
+                return Err(Wrong::new(format!("{path}.through_m"), message, "move it beside the hole"));
+            }
+            _ => {}
+        }
+        if matches!(probe.watch, Watch::Strain { .. }) && (D != 1 || scene.nodes[0] < 2) {
+            let message = "a strain probe needs a bar of two nodes or more";
+            return Err(Wrong::new(path, message, "watch displacements of points instead"));
+        }
+        if scene.probes[..index].iter().any(|other| other.name == probe.name) {
+            let message = format!("two probes are called \"{}\"", probe.name);
+            return Err(Wrong::new(format!("{path}.name"), message, "give each probe its own name"));
+        }
+        if probe.every == 0 {
+            let message = "a probe cannot look every 0 steps";
+            return Err(Wrong::new(format!("{path}.every_steps"), message, "take 1 or more"));
+        }
+    }
+    Ok(())
+}
+
+/// Whether the nodes between which a point is seen are there.
+fn in_the_body<const D: usize>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    probe: &str,
+    at: [f64; D],
+) -> Result<(), Wrong> {
+    let removed = |(node, share): &([isize; D], f64)| {
+        share.abs() > NO_SHARE && scene.edges.image(grid, *node).is_none()
+    };
+    let missing = corners(grid, &scene.edges, at).filter(removed).count();
+    if !grid.pierced() || missing == 0 {
+        return Ok(());
+    }
+    let away = |node: &[isize; D]| -> f64 {
+        let place = grid.position(*node);
+        (0..D).map(|axis| (place[axis] - at[axis]).powi(2)).sum()
+    };
+    let nearest = grid.each().min_by(|a, b| away(a).total_cmp(&away(b)));
+    let help = match nearest {
+        Some(node) => format!("the nearest node that is left stands at {}", place(grid.position(node))),
+        None => "leave the hole out".into(),
+    };
+    let message = format!("the probe \"{probe}\" at {} sees nodes that a hole has removed", place(at));
+    Err(Wrong::new("at_m", message, help))
+}
+
+/// A place in words, to nine digits.
+fn place<const D: usize>(at: [f64; D]) -> String {
+    let digits = |x: &f64| format!("{}", format!("{x:.8e}").parse::<f64>().unwrap_or(*x));
+    format!("[{}] m", at.iter().map(digits).collect::<Vec<_>>().join(", "))
+}
+
+/// Whether each hole takes nodes from the body, and its images follow the edges.
+pub fn holes<const D: usize>(scene: &Scene<D>) -> Result<(), Wrong> {
+    if D == 1 && !scene.holes.is_empty() {
+        return Err(Wrong::new("hole", "a bar has no holes", "leave them out, or take a plate"));
+    }
+    let size = scene.size();
+    for (index, hole) in scene.holes.iter().enumerate() {
+        let refuse = |key: &str, message: String, help: String| {
+            Err(Wrong::new(format!("hole[{index}].{key}"), message, help))
+        };
+        let Hole { centre, radius } = *hole;
+        if !(radius > 0.0 && radius.is_finite() && centre.iter().all(|x| x.is_finite())) {
+            let message = format!("a radius of {radius} m about {} is no hole", place(centre));
+            return refuse("radius_m", message, "give finite numbers and a radius above 0".into());
+        }
+        for (axis, edges) in scene.edges.0.into_iter().enumerate() {
+            let beyond = [(edges[0], centre[axis] < 0.0), (edges[1], centre[axis] > size[axis])];
+            if let Some((edge, _)) = beyond.into_iter().find(|(edge, out)| *out && *edge != Edge::Free) {
+                let message = format!(
+                    "the centre of the hole lies beyond an edge that is {}, where the plate has an image already",
+                    edge.described()
+                );
+                return refuse("centre_m", message, "move the centre onto the edge or into the plate".into());
+            }
+        }
+        let alone = Scene { holes: vec![*hole], ..scene.clone() };
+        if !alone.grid(0).pierced() {
+            let message = format!(
+                "the hole removes no node: its radius of {radius} m does not reach the centre of a cell of {} m",
+                scene.spacing
+            );
+            let help = "take a larger radius_m or a smaller dx_m, move centre_m onto a node, or cut bonds by a notch";
+            return refuse("radius_m", message, help.into());
+        }
+    }
+    Ok(())
+}
+
+/// Whether holes leave a node.
+pub fn left<const D: usize>(scene: &Scene<D>, grid: &Grid<D>) -> Result<(), Wrong> {
+    if grid.count() == 0 { Err(swallowed(scene, "no node is left")) } else { Ok(()) }
+}
+
+/// Whether holes leave a bond.
+pub fn bonded<const D: usize>(scene: &Scene<D>, counts: &Counts) -> Result<(), Wrong> {
+    let dust = counts.ends == 0 && !scene.holes.is_empty();
+    if dust { Err(swallowed(scene, "no two nodes that are left have a bond")) } else { Ok(()) }
+}
+
+/// Names the largest hole.
+fn swallowed<const D: usize>(scene: &Scene<D>, left: &str) -> Wrong {
+    let all = scene.holes.iter().enumerate();
+    let largest = all.max_by(|(_, a), (_, b)| a.radius.total_cmp(&b.radius)).map_or(0, |(index, _)| index);
+    let message = format!("the hole swallows the plate: {left}");
+    Wrong::new(format!("hole[{largest}].radius_m"), message, "take a smaller radius, or a larger plate")
+}

@@ -1,0 +1,127 @@
+//! What a scene costs: nodes, bonds, bytes, and how many nodes a list serves beside the stencil.
+//!
+//! By the sizes alone where the body is a whole rectangle of equal weights; node by node where notches or holes cut it,
+//! or weights are corrected.
+
+use crate::connectivity::Connectivity;
+use crate::constraints::Edge;
+use crate::forces::surface::Factors;
+use crate::forces::{BondList, Finite, LatticeStencil, Small, family};
+use crate::grid::Grid;
+use crate::lattice::Stencil;
+use crate::model::surface_factors;
+use crate::scene::{Operator, Rotations, Scene, Watch};
+
+/// Counts of a scene.
+pub struct Counts {
+    /// Bonds, counted once from each of their ends.
+    pub ends: u64,
+    /// Nodes whose weights differ from the lattice's, served by a list whatever the operator.
+    pub band: u64,
+    /// The largest factor of a surface correction.
+    pub largest_factor: f64,
+    /// State, force, and what the bonds keep.
+    pub bytes: usize,
+}
+
+/// The nodes of the operator that was asked for, and those of the band.
+#[derive(Default)]
+struct Served {
+    nodes: usize,
+    ends: u64,
+    /// Runs of nodes that have all their bonds, and how many such nodes.
+    runs: usize,
+    whole: usize,
+    band_nodes: usize,
+    band_ends: u64,
+}
+
+impl Counts {
+    pub fn of<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>, grid: &Grid<D>) -> Self {
+        let connectivity = Connectivity::of(scene);
+        let factors = surface_factors(scene, &family(stencil, scene.modulus(), scene.spacing), grid);
+        let served = match &factors {
+            None if connectivity.intact() => by_sizes(scene, stencil, grid),
+            factors => by_nodes(stencil, grid, &connectivity, factors.as_ref()),
+        };
+        Self {
+            ends: served.ends + served.band_ends,
+            band: served.band_nodes as u64,
+            largest_factor: factors.map_or(1.0, |factors| factors.largest(grid)),
+            bytes: state_bytes(scene, grid) + operator_bytes(scene, stencil, &served),
+        }
+    }
+}
+
+/// Displacement, increment and force, and what the ledger remembers of each step.
+fn state_bytes<const D: usize>(scene: &Scene<D>, grid: &Grid<D>) -> usize {
+    let ledger = scene.probes.iter().any(|probe| probe.watch == Watch::Energies);
+    let fields = if ledger { 6 } else { 3 };
+    fields * size_of::<f64>() * grid.field().len()
+}
+
+fn operator_bytes<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>, served: &Served) -> usize {
+    let list = match scene.rotations {
+        Rotations::Small => BondList::<D, Small>::bytes_for,
+        Rotations::Finite => BondList::<D, Finite>::bytes_for,
+    };
+    let own = match scene.operator {
+        Operator::Bonds => list(served.nodes, served.ends),
+        Operator::Stencil => {
+            let partial = served.nodes - served.whole;
+            LatticeStencil::<D, Small>::bytes_for(stencil.bonds.len(), served.runs, partial)
+        }
+    };
+    own + list(served.band_nodes, served.band_ends)
+}
+
+/// Node by node.
+fn by_nodes<const D: usize>(
+    stencil: &Stencil<D>,
+    grid: &Grid<D>,
+    connectivity: &Connectivity<D>,
+    factors: Option<&Factors<D>>,
+) -> Served {
+    let mut served = Served::default();
+    let mut whole = vec![false; grid.cells()];
+    for node in grid.each() {
+        let both = stencil.bonds.iter().flat_map(|bond| [bond.offset, bond.offset.map(|n| -n)]);
+        let ends = both.filter(|&offset| connectivity.present(node, offset)).count();
+        if factors.is_none_or(|factors| factors.neutral(node)) {
+            served.nodes += 1;
+            served.ends += ends as u64;
+            whole[grid.number(node)] = ends == 2 * stencil.bonds.len();
+        } else {
+            served.band_nodes += 1;
+            served.band_ends += ends as u64;
+        }
+    }
+    let runs = grid.runs(|node| whole[grid.number(node)]);
+    served.runs = runs.iter().map(Vec::len).sum();
+    served.whole = runs.iter().flatten().map(|run| run.len).sum();
+    served
+}
+
+/// By the sizes alone.
+fn by_sizes<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>, grid: &Grid<D>) -> Served {
+    let ends = |offset: [i32; D]| -> u64 {
+        let along = |axis: usize| {
+            let [below, above] = scene.edges.0[axis];
+            let lost = if offset[axis] < 0 { below } else { above } == Edge::Free;
+            let shift = offset[axis].unsigned_abs() as usize;
+            (scene.nodes[axis] - if lost { shift.min(scene.nodes[axis]) } else { 0 }) as u64
+        };
+        (0..D).map(along).product()
+    };
+    let both = stencil.bonds.iter().flat_map(|bond| [bond.offset, bond.offset.map(|n| -n)]);
+    let whole: [usize; D] = std::array::from_fn(|axis| {
+        let free = scene.edges.0[axis].iter().filter(|edge| **edge == Edge::Free).count();
+        grid.nodes[axis].saturating_sub(free * grid.halo)
+    });
+    let count: usize = whole.iter().product();
+    // A plate has a run in each row, a bar one in each piece that holds whole nodes.
+    let first = grid.halo * (1 + usize::from(scene.edges.0[0][0] == Edge::Free));
+    let pieces = || (first + count).div_ceil(grid.piece()) - first / grid.piece();
+    let runs = if count == 0 { 0 } else { whole.get(1).copied().unwrap_or_else(pieces) };
+    Served { nodes: grid.count(), ends: both.map(ends).sum(), runs, whole: count, ..Served::default() }
+}
