@@ -56,7 +56,7 @@ pub fn pvd<'a>(files: impl IntoIterator<Item = (f64, &'a str)>) -> String {
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
     );
     for (time, file) in files {
-        let _ = writeln!(text, r#"<DataSet timestep="{time}" part="0" file="{file}"/>"#);
+        let _ = writeln!(text, r#"<DataSet timestep="{time:e}" part="0" file="{file}"/>"#);
     }
     text + "</Collection>\n</VTKFile>\n"
 }

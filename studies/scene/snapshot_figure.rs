@@ -1,12 +1,19 @@
-//! Snapshots as a figure: a row for each time, the displacements along x and y beside each other, to scale.
+//! Snapshots as a figure: a row for each time, the displacements along x and y beside each other.
 
 use super::figure_units::Unit;
 use crate::rounded::rounded;
 use pd_verify::record::Snapshot;
 use pd_verify::report::plot::{Axis, Figure, Panel, Raster};
+use std::ops::RangeInclusive;
 
 /// Cells along the longer side that can still be seen apart.
 const MOST_CELLS: usize = 120;
+
+/// Height over length of bodies that can be seen when drawn to scale.
+const TO_SCALE: RangeInclusive<f64> = 0.1..=8.0;
+
+/// Bodies flatter than this need the whole width.
+const FLAT: f64 = 0.3;
 
 /// Below this share of the largest displacement a component is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -18,7 +25,7 @@ pub fn figure(id: String, title: String, shown: &[&Snapshot], taken: usize) -> O
     let sizes = [0, 1].map(|component| largest(shown, component));
     let most = sizes[0].max(sizes[1]);
     let block = first.nodes.iter().max()?.div_ceil(MOST_CELLS);
-    let mut caption = "Displacements of the whole body".to_owned();
+    let mut caption = "Displacements u of the whole body".to_owned();
     if shown.len() < taken {
         caption += &format!(" at {} of {taken} times", shown.len());
     }
@@ -26,12 +33,18 @@ pub fn figure(id: String, title: String, shown: &[&Snapshot], taken: usize) -> O
     if block > 1 {
         caption += &format!(" A cell is the mean over {block} by {block} nodes.");
     }
+    let slope = first.nodes[1] as f64 / first.nodes[0] as f64;
+    let to_scale = TO_SCALE.contains(&slope);
+    if !to_scale {
+        caption += " Not to scale.";
+    }
     let mut panels: Vec<Panel> = Vec::new();
     for snapshot in shown {
         for (component, &size) in sizes.iter().enumerate() {
             let at = format!("t = {} {}", rounded(time.of(snapshot.time)), time.name);
             let scale = if size > ROUNDING * most { size } else { most };
-            panels.push(raster(snapshot, component, scale, block).titled(at).into());
+            let raster = raster(snapshot, component, scale, block).titled(at);
+            panels.push(if to_scale { raster.to_scale() } else { raster }.into());
         }
     }
     for (size, axis) in sizes.iter().zip(["x", "y"]) {
@@ -41,7 +54,8 @@ pub fn figure(id: String, title: String, shown: &[&Snapshot], taken: usize) -> O
     }
     let mut panels = panels.into_iter();
     let figure = Figure::new(id, title, caption, panels.next()?);
-    Some(panels.fold(figure, Figure::panel).columns(2))
+    let columns = if slope < FLAT { 1 } else { 2 };
+    Some(panels.fold(figure, Figure::panel).columns(columns))
 }
 
 /// The largest finite size of a component.
@@ -56,10 +70,10 @@ fn raster(snapshot: &Snapshot, component: usize, scale: f64, block: usize) -> Ra
     let place = |name: &str, axis: usize| Axis::linear(name).range(0.0, size(axis));
     let unit = Unit::of_displacement(scale);
     let end = if scale > 0.0 { unit.of(scale) } else { 1.0 };
-    let name = ["displacement along x", "displacement along y"][component];
+    let name = ["u along x", "u along y"][component];
     let value = Axis::linear(format!("{name} ({})", unit.name)).range(-end, end);
     let values = coarse(snapshot, component, block, unit);
-    Raster::new(place("x (m)", 0), place("y (m)", 1), value, values).diverging(0.0).to_scale()
+    Raster::new(place("x (m)", 0), place("y (m)", 1), value, values).diverging(0.0)
 }
 
 /// Means over blocks of nodes, `None` where none of them has material. A last block that is not whole would be drawn

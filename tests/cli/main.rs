@@ -9,5 +9,6 @@ mod refusals;
 mod results;
 mod scenes;
 mod settings;
+mod snapshots;
 mod studies;
 mod support;

@@ -14,6 +14,8 @@ use std::collections::BTreeMap;
 const STEPS: f64 = 64.0;
 /// Of a raster to scale.
 const TALLEST: f64 = 400.0;
+/// Least room for the colours of a raster to scale, which takes what is left.
+const NARROW: f64 = 94.0;
 /// In neither scale of colours.
 const MISSING: Rgb = (176, 176, 176);
 
@@ -79,7 +81,7 @@ impl Raster {
         let slope = (y.1 - y.0) / (x.1 - x.0);
         let fitting = |height: f64| {
             let ticks = frame::upright_ticks(&self.y, y, height);
-            let room = width - frame::upright_room(&self.y, &ticks, height) - scale.room(height);
+            let room = width - frame::upright_room(&self.y, &ticks, height) - scale.room_from(height, NARROW);
             (slope * room).min(TALLEST)
         };
         // The rooms depend little on the height: twice is enough.
