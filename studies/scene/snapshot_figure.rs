@@ -43,7 +43,12 @@ pub fn figure(id: String, title: String, shown: &[&Snapshot], taken: usize) -> O
         for (component, &size) in sizes.iter().enumerate() {
             let at = format!("t = {} {}", rounded(time.of(snapshot.time)), time.name);
             let scale = if size > ROUNDING * most { size } else { most };
-            let raster = raster(snapshot, component, scale, block).titled(at);
+            let mut raster = raster(snapshot, component, scale, block).titled(at);
+            if slope < FLAT {
+                // The scale beside so flat a body has no room for ticks.
+                raster.title +=
+                    &format!(", {}, colours up to ±{}", raster.value.label, rounded(end_of(scale)));
+            }
             panels.push(if to_scale { raster.to_scale() } else { raster }.into());
         }
     }
@@ -69,11 +74,16 @@ fn raster(snapshot: &Snapshot, component: usize, scale: f64, block: usize) -> Ra
     let size = |axis: usize| snapshot.nodes[axis] as f64 * snapshot.spacing;
     let place = |name: &str, axis: usize| Axis::linear(name).range(0.0, size(axis));
     let unit = Unit::of_displacement(scale);
-    let end = if scale > 0.0 { unit.of(scale) } else { 1.0 };
+    let end = end_of(scale);
     let name = ["u along x", "u along y"][component];
     let value = Axis::linear(format!("{name} ({})", unit.name)).range(-end, end);
     let values = coarse(snapshot, component, block, unit);
     Raster::new(place("x (m)", 0), place("y (m)", 1), value, values).diverging(0.0)
+}
+
+/// Where the colours end, in the unit that fits; a body at rest has a scale of 1 m.
+fn end_of(scale: f64) -> f64 {
+    if scale > 0.0 { Unit::of_displacement(scale).of(scale) } else { 1.0 }
 }
 
 /// Means over blocks of nodes, `None` where none of them has material. A last block that is not whole would be drawn
