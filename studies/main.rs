@@ -3,6 +3,7 @@
 //! A study file is read and checked whole before anything is computed; its cases ask their questions of the library
 //! and of the reference, evidence is held against claims, and tables, figures and verdicts go to `reports/`.
 
+mod attachment;
 mod bar;
 mod bibliography;
 mod cli;

@@ -1,5 +1,6 @@
 //! The folder of results: written beside under another name, then put in place whole.
 
+use crate::attachment::Attachment;
 use crate::input::Refusal;
 use std::fs;
 use std::io;
@@ -60,13 +61,14 @@ impl Output {
     }
 
     /// Replaces a folder of results, all files at once.
-    pub fn replace_folder(&self, name: &str, files: &[(String, String)]) -> io::Result<PathBuf> {
+    pub fn replace_folder(&self, name: &str, files: &[Attachment]) -> io::Result<PathBuf> {
         let place = self.root.join(name);
         let partial = self.root.join(format!(".{name}.partial-{}", std::process::id()));
         let old = self.root.join(format!(".{name}.old-{}", std::process::id()));
         let _ = fs::remove_dir_all(&partial);
-        let written = fs::create_dir_all(&partial)
-            .and_then(|()| files.iter().try_for_each(|(file, text)| fs::write(partial.join(file), text)));
+        let written = fs::create_dir_all(&partial).and_then(|()| {
+            files.iter().try_for_each(|file| fs::write(partial.join(&file.name), file.bytes()))
+        });
         if let Err(error) = written {
             let _ = fs::remove_dir_all(&partial);
             return Err(error);
@@ -115,8 +117,9 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let output = Output::open(root.path(), &["a".into()]).unwrap();
         let manifest = r#"{"studies": [], "rustc": ""}"#;
-        output.replace_folder("a", &[(MARK.into(), manifest.into()), ("x.csv".into(), "1".into())]).unwrap();
-        output.replace_folder("a", &[(MARK.into(), manifest.into())]).unwrap();
+        let (mark, other) = (Attachment::text(MARK, manifest), Attachment::text("x.csv", "1"));
+        output.replace_folder("a", &[mark.clone(), other]).unwrap();
+        output.replace_folder("a", &[mark]).unwrap();
         assert!(Output::open(root.path(), &["a".into()]).is_ok());
         assert!(!root.path().join("a/x.csv").exists());
         assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);

@@ -1,5 +1,6 @@
 //! What every study is made of: cases that ask a question, claim an answer beforehand, and bring evidence.
 
+use crate::attachment::Attachment;
 use crate::subject::Subject;
 use pd_verify::claim::{Basis, Claim, ErrorKind, Expectation, Relation};
 use pd_verify::report::plot::Figure;
@@ -90,12 +91,14 @@ impl std::ops::AddAssign for Effort {
     }
 }
 
-/// What a case found: evidence by claim name, rows for the tables, figures.
+/// What a case found: evidence by claim name, rows for the tables, figures, files.
 #[derive(Debug, Default)]
 pub struct Answer {
     pub evidence: Vec<(String, Evidence)>,
     pub tables: Vec<Table>,
     pub figures: Vec<Figure>,
+    /// Further files; each name begins with the case's.
+    pub files: Vec<Attachment>,
 }
 
 impl Answer {

@@ -1,5 +1,6 @@
 //! Runs the cases of studies one after the other and judges what they found.
 
+use crate::attachment::Attachment;
 use crate::question::{Answer, Profile};
 use crate::study::{Case, Study};
 use crate::subject::Subject;
@@ -17,6 +18,7 @@ pub struct Ran {
     pub judged: Vec<Judged>,
     pub tables: Vec<Table>,
     pub figures: Vec<Figure>,
+    pub files: Vec<Attachment>,
     pub seconds: f64,
     /// Whether any case failed to compute.
     pub failed: bool,
@@ -41,6 +43,7 @@ pub fn run(study: &Study, profile: Profile, subject: &dyn Subject, watch: &dyn W
         judged: Vec::new(),
         tables: Vec::new(),
         figures: Vec::new(),
+        files: Vec::new(),
         seconds: 0.0,
         failed: false,
         finished: 0,
@@ -75,11 +78,12 @@ fn run_case(case: &Case, subject: &dyn Subject, ran: &mut Ran) {
     let claims = case.claims();
     match answer {
         Ok(answer) => {
-            let Answer { evidence, tables, figures } = answer;
+            let Answer { evidence, tables, figures, files } = answer;
             ran.failed |= evidence.iter().any(|(_, evidence)| evidence.failed.is_some());
             ran.judged.extend(weigh(claims, evidence, seconds));
             tables.into_iter().for_each(|table| merge(&mut ran.tables, table));
             ran.figures.extend(figures);
+            ran.files.extend(files);
         }
         Err(panic) => {
             ran.failed = true;

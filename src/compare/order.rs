@@ -44,8 +44,8 @@ pub struct Tail {
     pub order: Option<ObservedOrder>,
 }
 
-/// How far pairwise orders of one tail may be apart.
-pub const AGREEMENT: f64 = 0.25;
+/// How far pairwise orders of one tail may be from the finest pair's: as far as an order is commonly claimed to.
+pub const AGREEMENT: f64 = 0.1;
 
 /// The finest levels above a floor whose pairwise orders lie within [`AGREEMENT`] of the finest pair's. A level that is
 /// not finite ends the tail.

@@ -4,20 +4,24 @@ mod figure_csv;
 mod html;
 mod junit;
 mod markdown;
+mod npy;
 mod number;
 pub mod plot;
 mod row;
 mod terminal;
 mod verdict_table;
+mod vti;
 
 pub use figure_csv::figure_table;
 pub use html::index_html;
 pub use junit::junit_xml;
 pub use markdown::summary_markdown;
+pub use npy::npy;
 pub use number::csv_number;
 pub use row::counts_line;
 pub use terminal::terminal_table;
 pub use verdict_table::verdicts_csv;
+pub use vti::{pvd, vti};
 
 use crate::verdict::Judged;
 use serde::Serialize;

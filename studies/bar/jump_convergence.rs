@@ -194,6 +194,7 @@ right speed: E ∝ Δx^(1/2); speed c ≠ v: E → (1/T) ∫ |s(ct) − s(vt)| d
             evidence,
             tables: vec![self.table(&levels, place)],
             figures: vec![self.figure(&levels, place)],
+            ..Answer::default()
         }
     }
 }

@@ -177,7 +177,12 @@ continuum: (ωδ/v)² = (2/M₁) ∫₀¹ W(s)(1 − cos kδs)/s ds; lattice: (2
             levels::push(&mut table, "m", &place.case, sequence, at);
             evidence.push((one.slug.clone(), self.evidence(one, sequence)));
         }
-        Answer { evidence, tables: vec![table], figures: vec![self.figure(&seen, place)] }
+        Answer {
+            evidence,
+            tables: vec![table],
+            figures: vec![self.figure(&seen, place)],
+            ..Answer::default()
+        }
     }
 }
 

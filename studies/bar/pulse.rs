@@ -203,6 +203,7 @@ not calibrated: error of a wave of speed cv; leapfrog: ω' = (2/Δt) asin(ωΔt/
             evidence: self.evidence(&seen),
             tables: pulse_report::tables(self, &seen, place),
             figures: pulse_report::figures(self, &seen, place),
+            ..Answer::default()
         }
     }
 }

@@ -149,6 +149,7 @@ error: (1/T) ∫ |ε − ε_exact| dt / (F₀/EA)"
             evidence: self.evidence(subject, &seen),
             tables: release_report::tables(self, &seen, &curves, place),
             figures: release_report::figures(self, &seen, &curves, place),
+            ..Answer::default()
         }
     }
 }

@@ -86,6 +86,7 @@ impl Question for SpaceTime {
             )],
             tables: Vec::new(),
             figures: vec![self.figure(bar, place)],
+            ..Answer::default()
         }
     }
 }

@@ -145,6 +145,7 @@ measured: cos ωτ = Σ a(t)(a(t+τ) + a(t−τ)) / 2Σ a(t)²"
             evidence: evidence.collect(),
             tables: vec![spectrum_report::table(self, &heard, place)],
             figures: vec![spectrum_report::figure(self, &heard, place)],
+            ..Answer::default()
         }
     }
 }

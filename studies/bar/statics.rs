@@ -225,6 +225,7 @@ E_app = σL/(u(L) − u(0)), the ends extrapolated from two nodes; E/E_app = 1 +
                 evidence: self.evidence(&rested, patch, still),
                 tables: statics_report::tables(self, &rested, place),
                 figures: statics_report::figures(self, &rested, place),
+                ..Answer::default()
             },
         }
     }

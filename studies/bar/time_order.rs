@@ -133,6 +133,7 @@ impl Question for TimeOrder {
             evidence,
             tables: vec![self.table(&levels, place)],
             figures: vec![self.figure(&levels, place)],
+            ..Answer::default()
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Commands that compute: read, refuse, run, judge, write, and end with the code that tells how it went.
 
 use super::say;
+use crate::attachment::Attachment;
 use crate::cli::RunOptions;
 use crate::input::{MAX_BYTES, Refusal, Setting};
 use crate::kind::Kind;
@@ -230,23 +231,24 @@ fn folder_of(
     ran: Vec<Ran>,
     manifest: &Manifest,
     problems: &mut Vec<String>,
-) -> (Vec<(String, String)>, Vec<StudyReport>) {
+) -> (Vec<Attachment>, Vec<StudyReport>) {
     let mut tables = Vec::new();
-    let mut files = vec![("manifest.json".to_owned(), manifest.json())];
+    let mut files = vec![Attachment::text("manifest.json", manifest.json())];
     let mut reports = Vec::new();
     for (study, ran) in studies.iter().zip(ran) {
         ran.tables.into_iter().for_each(|table| merge(&mut tables, table));
+        files.extend(ran.files);
         let mut figures = Vec::new();
         for figure in &ran.figures {
             match Drawn::new(figure) {
                 Ok(drawn) => {
-                    files.push((format!("{}.svg", drawn.id), drawn.svg.clone()));
+                    files.push(Attachment::text(format!("{}.svg", drawn.id), drawn.svg.clone()));
                     figures.push(drawn);
                 }
                 Err(error) => problems.push(format!("figure {}: {error}", figure.id)),
             }
             let data = figure_table(figure);
-            files.push((data.file.clone(), data.csv()));
+            files.push(Attachment::text(data.file.clone(), data.csv()));
         }
         reports.push(StudyReport {
             id: study.id.clone(),
@@ -257,14 +259,14 @@ fn folder_of(
             judged: ran.judged,
         });
     }
-    files.extend(tables.iter().map(|table| (table.file.clone(), table.csv())));
-    for (index, (name, _)) in files.iter().enumerate() {
-        if files[..index].iter().any(|(other, _)| other == name) {
+    files.extend(tables.iter().map(|table| Attachment::text(table.file.clone(), table.csv())));
+    for (index, Attachment { name, .. }) in files.iter().enumerate() {
+        if files[..index].iter().any(|other| other.name == *name) {
             problems.push(format!("two results would be called {name}"));
         }
     }
     let judged: Vec<Judged> = reports.iter().flat_map(|report| report.judged.clone()).collect();
-    files.push(("verdicts.csv".to_owned(), verdicts_csv(&judged)));
+    files.push(Attachment::text("verdicts.csv", verdicts_csv(&judged)));
     (files, reports)
 }
 

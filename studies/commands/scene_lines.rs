@@ -50,6 +50,10 @@ impl SceneLines {
         if more > 0 {
             lines.push(Line::Text(format!("  and {more} more; --json has all")));
         }
+        let bytes: u64 = scenes.iter().map(|scene| scene.snapshot_bytes).sum();
+        if bytes > 0 {
+            lines.push(Line::Text(format!("  snapshots:   {:.3} MB in memory", bytes as f64 / 1e6)));
+        }
         let names = shown.iter().map(|scene| scene.name.chars().count());
         let width = names.max().unwrap_or(0).clamp("scene".len(), WIDEST);
         lines.iter().map(|line| line.set(width) + "\n").collect()

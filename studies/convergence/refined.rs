@@ -172,6 +172,9 @@ fn without_m(name: &str) -> String {
     name.split(", ").filter(|part| !part.starts_with("m = ")).collect::<Vec<_>>().join(", ")
 }
 
+/// Index of L2 in [`NORMS`].
+const L2: usize = 1;
+
 /// Long-wave moduli this close to the intended ones are the intended ones.
 const RIGHT: f64 = 1e-12;
 
@@ -243,7 +246,7 @@ where
         }
         if self.tracks.iter().any(Track::stops) {
             let quantity = format!(
-                "level at which the error of {what} stops, over that of an exact body with the lattice's moduli, less 1: furthest lattice and norm"
+                "level at which the error in l2 of {what} stops, over that of an exact body with the lattice's moduli, less 1: furthest lattice"
             );
             claims.push(
                 claim(place, "plateau", quantity)
@@ -312,8 +315,7 @@ where
             evidence.extend(furthest(orders).map(|found| (format!("order_{name}"), found)));
         }
         let stopped = both().filter(|(track, _)| track.stops());
-        let plateaus =
-            stopped.flat_map(|(track, seen)| (0..NORMS.len()).map(move |norm| plateau(track, seen, norm)));
+        let plateaus = stopped.map(|(track, seen)| plateau(track, seen));
         evidence.extend(furthest(plateaus).map(|found| ("plateau".into(), found)));
         for (track, seen) in both().filter(|(track, _)| track.alone()) {
             let found = theory::evidence_of(&track.expected::<D>(), &track.name, &seen.levels, floor);
@@ -324,18 +326,18 @@ where
 }
 
 /// The level that the error tends to, over what the moduli predict; inconclusive where it is still far from there.
-fn plateau<L>(track: &Track<L>, seen: &Seen, norm: usize) -> Evidence {
-    let errors = seen.levels.in_norm(norm);
+fn plateau<L>(track: &Track<L>, seen: &Seen) -> Evidence {
+    let errors = seen.levels.in_norm(L2);
     let [.., (coarse, before), (fine, last)] = errors[..] else { return Evidence::default() };
     let limit = last + (last - before) / ((coarse / fine).powi(2) - 1.0);
-    let predicted = seen.plateau.map(|errors| errors[norm]);
+    let predicted = seen.plateau.map(|errors| errors[L2]);
     let far = (limit - last).abs() > 0.5 * limit.abs();
     Evidence {
         outside: far
             .then(|| format!("{}: {last:.2e} is still far from a plateau, take finer levels", track.name)),
         ..error_of(
             predicted.map(|predicted| (limit / predicted - 1.0).abs()),
-            format!("{}: {limit:.4e} in {}, {last:.4e} at the finest level", track.name, NORMS[norm]),
+            format!("{}: {limit:.4e}, {last:.4e} at the finest level", track.name),
         )
     }
 }

@@ -19,6 +19,8 @@ use pd_verify::verdict::Evidence;
 pub enum Expected {
     /// A power of the step, to within so much.
     Order { value: f64, within: f64, because: &'static str },
+    /// A power under some scatter: the slope over all levels, to within so much.
+    Slope { value: f64, within: f64, because: &'static str },
     /// No power; the slope over all levels is at least this.
     Falls { at_least: f64, because: &'static str },
 }
@@ -40,7 +42,7 @@ pub fn expected<const D: usize>(sequence: &Sequence) -> Expected {
                 because: "nonlocality errs by δ², the volume rule by 1/m²; where m grows like 1/δ both fall by the second order; 0.1 for the next power",
             }
         }
-        (2, _, VolumeRule::ExactArea) => Expected::Order {
+        (2, _, VolumeRule::ExactArea) => Expected::Slope {
             value: 2.0,
             within: 0.25,
             because: "Poisson summation: cells cut by the rim err by m^(−2), and the next term is only m^(1/2) smaller: 0.25",
@@ -78,6 +80,9 @@ pub fn claim_of<const D: usize>(
         Expected::Order { value, within, because } => {
             of("order").order(value, within).because(Basis::Theory, because)
         }
+        Expected::Slope { value, within, because } => {
+            of("slope over all levels").order(value, within).because(Basis::Theory, because)
+        }
         Expected::Falls { at_least, because } => {
             of("slope over all levels").at_least(at_least).because(Basis::Theory, because)
         }
@@ -89,11 +94,12 @@ pub fn evidence_of(expected: &Expected, name: &str, levels: &levels::Sequence, f
     let in_l2 = levels.in_norm(1);
     match *expected {
         Expected::Order { value, .. } => tail_order(name, &in_l2, value, floor),
-        Expected::Falls { .. } => {
+        Expected::Slope { .. } | Expected::Falls { .. } => {
+            let known = if let Expected::Slope { value, .. } = *expected { Some(value) } else { None };
             let sound = in_l2.iter().all(|level| level.1.is_finite() && level.1 > floor);
             let order = fitted(&in_l2).filter(|_| sound);
             let note = format!("{name}: {} levels", in_l2.len());
-            Evidence { order, ..value_of(order.map(|order| order.value), None, note) }
+            Evidence { order, ..value_of(order.map(|order| order.value), known, note) }
         }
     }
 }

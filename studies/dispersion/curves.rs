@@ -150,6 +150,7 @@ leapfrog: sin(ωΔt/2) = ΩΔt/2, Ω the frequency in exact time"
             evidence: self.evidence(&traced),
             tables: curve_report::tables(self, &traced, place),
             figures: curve_report::figures(self, &traced, place),
+            ..Answer::default()
         }
     }
 }

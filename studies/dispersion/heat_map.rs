@@ -108,7 +108,7 @@ impl Question for HeatMap {
         }
         let values: Vec<Option<f64>> =
             found.iter().map(|(mine, _)| mine.map(|error| 100.0 * error)).collect();
-        Answer { evidence, tables: vec![table], figures: self.figure(&values, place) }
+        Answer { evidence, tables: vec![table], figures: self.figure(&values, place), ..Answer::default() }
     }
 }
 

@@ -103,7 +103,7 @@ bar: c₀ = E/(A δ² M₁); plane: c₀ = 8 C₁₁/(3π h δ³ M₂); Mₙ = �
                 error_of(largest_relative(pairs), format!("{} kernels", self.kernels.len())),
             ));
         }
-        Answer { evidence, tables: vec![table], figures: vec![self.figure(place)] }
+        Answer { evidence, tables: vec![table], figures: vec![self.figure(place)], ..Answer::default() }
     }
 }
 

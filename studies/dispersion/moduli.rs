@@ -182,7 +182,7 @@ calibration: bonds times α + β cos 4θ, α and β from C₁₁ and C₁₂ as 
             ("calibrated".into(), error_of(residual, note)),
         ];
         let figures = self.figures(&measured, place);
-        Answer { evidence, tables: vec![self.table(&measured, place)], figures }
+        Answer { evidence, tables: vec![self.table(&measured, place)], figures, ..Answer::default() }
     }
 }
 

@@ -139,7 +139,7 @@ impl Question for Polar {
         .columns(2);
         let error = largest(traced.iter().map(|(_, error)| *error));
         let evidence = vec![("phase_speed".into(), error_of(error, format!("{} curves", traced.len())))];
-        Answer { evidence, tables: vec![table], figures: vec![figure] }
+        Answer { evidence, tables: vec![table], figures: vec![figure], ..Answer::default() }
     }
 }
 

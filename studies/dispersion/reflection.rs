@@ -131,7 +131,7 @@ exactly: nodes n < 0 obey one stencil, n ≥ 0 the other; each side carries its 
             ("equal_k".to_owned(), judged(&errors.equal_k)),
         ];
         let figures = figure.into_iter().map(|figure| figure.columns(2)).collect();
-        Answer { evidence, tables: vec![table], figures }
+        Answer { evidence, tables: vec![table], figures, ..Answer::default() }
     }
 }
 

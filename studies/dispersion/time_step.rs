@@ -124,6 +124,7 @@ impl Question for TimeStep {
             evidence,
             tables: vec![self.table(&found, place)],
             figures: vec![self.figure(&found, place)],
+            ..Answer::default()
         }
     }
 }

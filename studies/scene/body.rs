@@ -3,6 +3,7 @@
 use super::balances::{BALANCE, MOMENTUM};
 use super::march::MarchAsked;
 use super::size::cells;
+use super::snapshots;
 use super::time::time;
 use crate::written::Written;
 use pd_verify::lattice::Lattice;
@@ -85,7 +86,7 @@ pub fn scene<const D: usize>(
         effects: effects.to_vec(),
         time: time(asked.duration_s, asked.safety, asked.time_step_s, asked.unstable)?,
         probes: Vec::new(),
-        snapshots: Vec::new(),
+        snapshots: snapshots::asked::<D>(asked)?,
     };
     for (index, probe) in asked.probe.iter().enumerate() {
         let probe = probe.check(scene.size()).map_err(|wrong| wrong.inside(&format!("probe[{index}]")));

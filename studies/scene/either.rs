@@ -1,7 +1,7 @@
 //! A scene of a bar or of a plate, where the rest of a study need not know which.
 
 use crate::subject::Subject;
-use pd_verify::lattice::Stencil;
+use pd_verify::lattice::{Lattice, Stencil};
 use pd_verify::plan::Plan;
 use pd_verify::record::{Failure, Record};
 use pd_verify::scene::{Operator, Probe, Scene, StepRule, Time, Watch, Wrong};
@@ -59,6 +59,14 @@ impl Either {
         }
     }
 
+    /// What its bonds are made from.
+    pub fn lattice(&self) -> Lattice {
+        match self {
+            Self::Bar(scene) => scene.lattice,
+            Self::Plate(scene) => scene.lattice,
+        }
+    }
+
     /// Bonds of a node far from every edge, and nodes along the longest axis.
     pub fn extent(&self) -> (usize, usize) {
         match self {
@@ -100,6 +108,7 @@ fn beginning<const D: usize>(scene: &Scene<D>, operator: Operator, steps: u64, p
             step: StepRule::Given { seconds, beyond_limit: true },
         },
         probes: own.chain(lines).collect(),
+        snapshots: Vec::new(),
         ..scene.clone()
     }
 }

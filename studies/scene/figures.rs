@@ -159,7 +159,7 @@ fn runs_along_y(columns: &[Column]) -> bool {
 }
 
 /// Up to six looks, the first and the last among them.
-fn shown(looks: usize) -> Vec<usize> {
+pub(super) fn shown(looks: usize) -> Vec<usize> {
     if looks <= MOST_TIMES {
         return (0..looks).collect();
     }

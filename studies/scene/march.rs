@@ -11,6 +11,7 @@ use super::march_claims::{claims, evidence, why};
 use super::operators::Twice;
 use super::probe_table::{MAX_ROWS, table};
 use super::probes::{ProbeAsked, WatchName, looks, quantities};
+use super::snapshots::{self, SnapshotAsked, check_files};
 use crate::bar::names::differences;
 use crate::dispersion::sweep::LatticeSweep;
 use crate::dispersion::words::BodyName;
@@ -67,6 +68,8 @@ pub struct MarchAsked {
     pub effect: Option<Vec<EffectAsked>>,
     /// What is seen.
     pub probe: Vec<ProbeAsked>,
+    /// Of a plate: displacement and velocity of all nodes at chosen times.
+    pub snapshot: Option<Vec<SnapshotAsked>>,
     /// Numbers that a probe must see.
     pub expect: Option<Vec<ExpectAsked>>,
 }
@@ -76,6 +79,7 @@ pub struct March {
     pub title: String,
     pub scenes: Vec<Marched>,
     pub expect: Vec<Expect>,
+    pub snapshots: Vec<SnapshotAsked>,
 }
 
 /// A scene with its plan, and its beginning by both operators where that can be afforded.
@@ -126,13 +130,15 @@ impl Asked for MarchAsked {
             scenes.push(Marched { scene, plan, twice });
         }
         self.check_rows(&scenes, of.dimension())?;
+        check_files(self, &scenes)?;
         let plans: Vec<&Plan> = scenes.iter().map(|one| &one.plan).collect();
         let mut expect: Vec<Expect> = Vec::new();
         for (index, asked) in self.expect.iter().flatten().enumerate() {
             let found = asked.check(index, &expect, &self.probe, &plans, of.dimension());
             expect.push(found.map_err(|wrong| wrong.inside(&format!("expect[{index}]")))?);
         }
-        Ok(March { title: written.title.to_owned(), scenes, expect })
+        let snapshots = self.snapshot.clone().unwrap_or_default();
+        Ok(March { title: written.title.to_owned(), scenes, expect, snapshots })
     }
 }
 
@@ -186,7 +192,7 @@ impl Question for March {
 
     fn equations(&self) -> &'static str {
         "ρü(x) = Σ w (ξ⊗ξ/|ξ|²)(u(x + ξ) − u(x)) + b, or with finite rotations Σ w e y/|y|, y = ξ + η, e = |y| − |ξ|
-leapfrog: v(n + ½) = v(n − ½) + Δt a(n), u(n + 1) = u(n) + Δt v(n + ½)
+leapfrog: v(n + ½) = v(n − ½) + Δt a(n), u(n + 1) = u(n) + Δt v(n + ½); v(n) = (u(n + 1) − u(n − 1))/2Δt
 ledger: ½ρV Σ v(n + ½)² + ½ u(n)ᵀK u(n + 1) − work is constant; momentum: P(t) = P(0) + ∫ loads dt"
     }
 
@@ -194,13 +200,28 @@ ledger: ½ρV Σ v(n + ½)² + ½ u(n)ᵀK u(n + 1) − work is constant; moment
         let runs: Vec<Result<Record, Failure>> =
             self.scenes.iter().map(|one| one.scene.march(subject)).collect();
         let seen = || runs.iter().flatten();
-        let (tables, figures) =
-            (vec![table(seen(), place)], figures(&self.title, &seen().collect::<Vec<_>>(), place));
+        let ran = || self.scenes.iter().zip(&runs).filter_map(|(one, run)| Some((one, run.as_ref().ok()?)));
+        let alone = self.scenes.len() == 1;
+        let tables = vec![table(seen(), place)];
+        let mut figures = figures(&self.title, &seen().collect::<Vec<_>>(), place);
+        figures.extend(snapshots::figures(
+            &self.title,
+            &self.snapshots,
+            &ran().collect::<Vec<_>>(),
+            alone,
+            place,
+        ));
         let failure = runs.iter().find_map(|run| run.as_ref().err());
         let evidence = match failure {
             Some(failure) => Answer::failed(&self.claims(place), &why(self, failure)).evidence,
             None => evidence(self, &seen().collect::<Vec<_>>(), subject),
         };
-        Answer { evidence, tables, figures }
+        let taken = |run: Result<Record, Failure>| run.map(|record| record.snapshots).unwrap_or_default();
+        let files = self
+            .scenes
+            .iter()
+            .zip(runs)
+            .flat_map(|(one, run)| snapshots::files(&self.snapshots, one, taken(run), alone, place));
+        Answer { evidence, tables, figures, files: files.collect() }
     }
 }

@@ -17,6 +17,8 @@ mod operators;
 mod probe_table;
 mod probes;
 pub mod size;
+mod snapshot_figure;
+mod snapshots;
 #[cfg(test)]
 mod tests;
 pub mod time;

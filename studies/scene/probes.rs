@@ -42,11 +42,7 @@ pub struct ProbeAsked {
 impl ProbeAsked {
     /// The probe; how often it looks is settled by [`ProbeAsked::every`] when the steps are known.
     pub fn check<const D: usize>(&self, size: [f64; D]) -> Result<Probe<D>, Wrong> {
-        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
-        if self.name.is_empty() || self.name.len() > 40 || !self.name.chars().all(plain) {
-            let message = format!("\"{}\" cannot name a figure", self.name);
-            return Err(Wrong::new("name", message, "use lower-case letters, digits, - and _, at most 40"));
-        }
+        check_name(&self.name)?;
         self.check_keys::<D>()?;
         let watch = match self.watches {
             WatchName::Point => Watch::Point { at: self.place(size)? },
@@ -105,6 +101,16 @@ impl ProbeAsked {
         };
         self.every_steps.unwrap_or(chosen)
     }
+}
+
+/// Whether a name can be part of the names of files.
+pub fn check_name(name: &str) -> Result<(), Wrong> {
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
+    if !name.is_empty() && name.len() <= 40 && name.chars().all(plain) {
+        return Ok(());
+    }
+    let message = format!("\"{name}\" cannot name a figure");
+    Err(Wrong::new("name", message, "use lower-case letters, digits, - and _, at most 40"))
 }
 
 /// A place meant to be the far edge must not miss it by rounding.

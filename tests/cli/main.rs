@@ -10,5 +10,6 @@ mod refusals;
 mod results;
 mod scenes;
 mod settings;
+mod snapshots;
 mod studies;
 mod support;

@@ -111,11 +111,17 @@ impl<'a> ColourScale<'a> {
         text::wrap(&frame::full_label(self.axis, ticks), frame::SIZE, false, height + 40.0)
     }
 
-    /// Width needed right of cells of this height: a gap, the bar, its tick labels and its label.
+    /// Width needed right of cells of this height: a gap, the bar, its tick labels and its label; at least so much that
+    /// the cells of most panels are equally wide.
     pub fn room(&self, height: f64) -> f64 {
+        self.room_from(height, 112.0)
+    }
+
+    /// The same from another least width on.
+    pub fn room_from(&self, height: f64, least: f64) -> f64 {
         let ticks = self.ticks(height);
         let lines = self.label(&ticks, height).len() as f64;
-        (GAP + BAR + BESIDE + ticks.widest(frame::SIZE) + lines * frame::LINE).max(112.0)
+        (GAP + BAR + BESIDE + ticks.widest(frame::SIZE) + lines * frame::LINE).max(least)
     }
 
     /// Draws the scale right of the cells.

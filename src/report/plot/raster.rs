@@ -12,6 +12,10 @@ use std::collections::BTreeMap;
 
 /// Steps between the ends of the scale; cells of one shade are drawn together. Even, so that a centre is a shade.
 const STEPS: f64 = 64.0;
+/// Of a raster to scale.
+const TALLEST: f64 = 400.0;
+/// Least room for the colours of a raster to scale, which takes what is left.
+const NARROW: f64 = 94.0;
 /// In neither scale of colours.
 const MISSING: Rgb = (176, 176, 176);
 
@@ -31,12 +35,14 @@ pub struct Raster {
     /// its end.
     pub value: Axis,
     pub colours: Colours,
+    /// Whether a length is as long along x as along y.
+    pub to_scale: bool,
 }
 
 impl Raster {
     /// A field; the ranges of `x` and `y` run from the first cell's outer edge to the last one's.
     pub fn new(x: Axis, y: Axis, value: Axis, values: Vec<Vec<Option<f64>>>) -> Self {
-        Self { title: String::new(), x, y, values, value, colours: Colours::Sequential }
+        Self { title: String::new(), x, y, values, value, colours: Colours::Sequential, to_scale: false }
     }
 
     /// With a title above.
@@ -51,6 +57,12 @@ impl Raster {
         self
     }
 
+    /// With the same scale along both axes, which then are places in one unit.
+    pub fn to_scale(mut self) -> Self {
+        self.to_scale = true;
+        self
+    }
+
     /// Every cell as (x, y, value), x and y of its middle, row by row; nothing where an axis is impossible.
     pub(in crate::report) fn points(&self) -> Vec<(f64, f64, Option<f64>)> {
         let Ok([x, y]) = self.ranges() else { return Vec::new() };
@@ -62,6 +74,18 @@ impl Raster {
         let (across, up) = (middles(&self.x, x, self.columns()), middles(&self.y, y, self.values.len()));
         let rows = up.iter().zip(&self.values);
         rows.flat_map(|(&y, row)| across.iter().zip(row).map(move |(&x, &value)| (x, y, value))).collect()
+    }
+
+    /// As high as the room beside the axis and the colours allows, up to a limit.
+    fn height_to_scale(&self, width: f64, scale: &ColourScale, [x, y]: [(f64, f64); 2]) -> f64 {
+        let slope = (y.1 - y.0) / (x.1 - x.0);
+        let fitting = |height: f64| {
+            let ticks = frame::upright_ticks(&self.y, y, height);
+            let room = width - frame::upright_room(&self.y, &ticks, height) - scale.room_from(height, NARROW);
+            (slope * room).min(TALLEST)
+        };
+        // The rooms depend little on the height: twice is enough.
+        fitting(fitting(TALLEST))
     }
 
     fn columns(&self) -> usize {
@@ -95,10 +119,17 @@ impl Raster {
         self.check()?;
         let scale = ColourScale::new(&self.value, self.colours, &self.values)?;
         let [x_range, y_range] = self.ranges()?;
-        let height = (0.56 * width).clamp(210.0, 400.0);
+        let height = match self.to_scale {
+            true => self.height_to_scale(width, &scale, [x_range, y_range]),
+            false => (0.56 * width).clamp(210.0, 400.0),
+        };
         let y_ticks = frame::upright_ticks(&self.y, y_range, height);
         let room = frame::upright_room(&self.y, &y_ticks, height);
-        let (first, right) = (left + room, left + width - scale.room(height));
+        let right = match self.to_scale {
+            true => left + room + height * (x_range.1 - x_range.0) / (y_range.1 - y_range.0),
+            false => left + width - scale.room(height),
+        };
+        let first = left + room;
         let x_ticks = frame::level_ticks(&self.x, x_range, right - first);
         let title = frame::paragraph(canvas, &self.title, 0.5 * (first + right), top, width - room, true);
         let above = top + title + 8.0;

@@ -222,6 +222,21 @@ fn a_raster_shows_low_y_below_and_missing_cells_grey() {
 }
 
 #[test]
+fn a_raster_to_scale_has_the_shape_of_its_body() {
+    for (length, height) in [(0.1, 0.08), (0.2, 0.03), (0.02, 0.1)] {
+        let place = |end: f64| Axis::linear("x (m)").range(0.0, end);
+        let values = vec![vec![Some(1.0), None]; 2];
+        let raster = Raster::new(place(length), place(height), Axis::linear("u (m)"), values);
+        let frame = drawn(raster.clone().to_scale()).frame();
+        // In whole tenths of pixels.
+        let apart = |frame: clip::Rect| (frame.width() - frame.height() * length / height).abs();
+        assert!(apart(frame) <= 2.0 * (1.0 + length / height), "{frame:?}");
+        assert!(frame.height() <= 4001.0 && (frame.width() > 5000.0 || frame.height() > 3990.0), "{frame:?}");
+        assert!(apart(drawn(raster).frame()) > 80.0);
+    }
+}
+
+#[test]
 fn a_space_time_plot_is_a_small_file() {
     let text = svg(&gallery::space_time()).unwrap();
     assert!(text.len() < 150_000, "{} bytes for 200 × 150 cells", text.len());
