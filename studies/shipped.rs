@@ -95,6 +95,9 @@ mod tests {
         assert!(waves.bond_evaluations < 100_000_000 && waves.reference_evaluations < 40_000, "{waves:?}");
         let bars = effort(Kind::Bar);
         assert!(bars.node_updates > 0 && bars.node_updates < 1_200_000_000, "{bars:?}");
+        // 15 s, some 4·10⁷ updates of nodes in a plate a second.
+        let refined = effort(Kind::Convergence);
+        assert!(refined.node_updates > 0 && refined.node_updates < 300_000_000, "{refined:?}");
     }
 
     #[test]

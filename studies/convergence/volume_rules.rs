@@ -76,7 +76,7 @@ impl Asked for VolumeRulesAsked {
             return Err(Wrong::new("body", "a bar has no rim to be irregular", help));
         }
         let [first, last] = self.m;
-        if first < SMALLEST || last < first + 8 || last > LARGEST {
+        if first < SMALLEST || last < 8 * first || last > LARGEST {
             let message = format!("m from {first} to {last} shows no law of large m");
             let help = format!(
                 "take m = [first, last], from {SMALLEST} or more to {LARGEST} or less, 8 apart or more"
@@ -157,7 +157,7 @@ impl Question for VolumeRules {
                 ),
                 Trend::Rim => {
                     claims.push(
-                        of("trend", "slope in 1/m of the error of ω², over every whole m".into())
+                        of("trend", "slope in 1/m of the root mean square error of ω² over octaves of m".into())
                             .order(1.25, 0.35)
                             .because(Basis::Theory, "the count of nodes in a disc errs like m^(−3/2) of it (Gauss's circle problem), a rim of ties counted whole like m^(−1): the slope lies between, 0.1 beyond for chance"),
                     );
@@ -207,7 +207,7 @@ full: waves of the rim m^(−3/2) from every reciprocal vector g, and ties |r| =
             match trend(*weights) {
                 Trend::Second => push("order", seen.slope(2.0)),
                 Trend::Rim => {
-                    push("trend", seen.slope(1.25));
+                    push("trend", seen.octaves(1.25));
                     push("scatter", seen.scatter());
                 }
                 Trend::Mixed => push("scatter", seen.scatter()),
@@ -244,6 +244,23 @@ impl Seen {
         let order = fitted(&levels).filter(|_| levels.iter().all(|level| level.1.is_finite()));
         let found = order.map(|order| order.value);
         Evidence { order, ..value_of(found, Some(expected), format!("{} values of m", levels.len())) }
+    }
+
+    /// The slope of the root mean square of e over octaves of m: errors that change sign have no logarithm each.
+    fn octaves(&self, expected: f64) -> Evidence {
+        let first = self.errors.first().map_or(f64::NAN, |(m, _)| *m);
+        let mut levels = Vec::new();
+        let mut from = first;
+        while self.errors.last().is_some_and(|(m, _)| 2.0 * from <= *m) {
+            let inside = self.errors.iter().filter(|(m, _)| (from..2.0 * from).contains(m));
+            let (count, sum) =
+                inside.fold((0.0, 0.0), |(count, sum), (_, error)| (count + 1.0, sum + error * error));
+            levels.push((1.0 / from, (sum / count).sqrt()));
+            from *= 2.0;
+        }
+        let order = fitted(&levels).filter(|order| order.levels >= 3);
+        let note = format!("root mean squares over {} octaves of m", levels.len());
+        Evidence { order, ..value_of(order.map(|order| order.value), Some(expected), note) }
     }
 
     /// How far apart the orders from m to 2m are.

@@ -2,6 +2,7 @@
 //! must be lost to at least one wrong ingredient.
 
 mod bar_faults;
+mod convergence_faults;
 mod faults;
 mod oracles;
 
@@ -16,9 +17,10 @@ use pd_verify::verdict::Verdict;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-fn verdicts(studies: &[Study], subject: &dyn Subject) -> BTreeMap<String, Verdict> {
-    let judged = studies.iter().flat_map(|study| run(study, Profile::Full, subject, &Silent).judged);
-    judged.map(|judged| (judged.claim.id, judged.verdict)).collect()
+fn verdicts(studies: &[Study], profile: Profile, subject: &dyn Subject) -> BTreeMap<String, Verdict> {
+    let judged = studies.iter().flat_map(|study| run(study, profile, subject, &Silent).judged);
+    let ran = judged.filter(|judged| judged.verdict != Verdict::Skipped);
+    ran.map(|judged| (judged.claim.id, judged.verdict)).collect()
 }
 
 /// Whether a claim's verdict has turned: a pass is lost, or a printed formula comes out right.
@@ -32,25 +34,42 @@ fn turned(sound: Verdict, faulty: Verdict) -> bool {
 
 #[test]
 fn every_fault_in_waves_is_caught_and_every_claim_about_them_can_fail() {
-    check(Kind::Dispersion, faults::all());
+    check(Kind::Dispersion, Profile::Full, faults::all());
 }
 
 #[test]
 fn every_fault_in_bars_is_caught_and_every_claim_about_them_can_fail() {
-    check(Kind::Bar, bar_faults::all());
+    check(Kind::Bar, Profile::Full, bar_faults::all());
+}
+
+#[test]
+fn every_fault_in_refinements_is_caught_and_every_claim_about_them_can_fail() {
+    check(Kind::Convergence, Profile::Quick, convergence_faults::all());
+}
+
+/// The quick profile stands for the others where these would take too long.
+#[test]
+fn refinements_ask_nothing_that_the_quick_profile_does_not() {
+    let studies = shipped(Some(Kind::Convergence), &[]).expect("the shipped studies are sound");
+    let asked = |quick: bool| -> BTreeSet<String> {
+        let cases = studies.iter().flat_map(|study| &study.cases);
+        cases.filter(|case| (case.profile == Profile::Quick) == quick).map(|case| case.asks.clone()).collect()
+    };
+    let only_slow: Vec<_> = asked(false).difference(&asked(true)).cloned().collect();
+    assert!(only_slow.is_empty(), "{only_slow:?}");
 }
 
 /// Runs the shipped studies of a kind with each fault.
-fn check(kind: Kind, faults: Vec<(&'static str, Box<dyn Subject + Send>)>) {
+fn check(kind: Kind, profile: Profile, faults: Vec<(&'static str, Box<dyn Subject + Send>)>) {
     let studies = shipped(Some(kind), &[]).expect("the shipped studies are sound");
-    let sound = verdicts(&studies, &PdVerify);
+    let sound = verdicts(&studies, profile, &PdVerify);
     let bad: Vec<_> = sound.iter().filter(|(_, v)| !matches!(v, Verdict::Pass | Verdict::Xfail)).collect();
     assert!(bad.is_empty(), "without any fault: {bad:?}");
 
     let lost: Vec<(&str, BTreeSet<String>)> = faults
         .par_iter()
         .map(|(name, subject)| {
-            let faulty = verdicts(&studies, subject.as_ref());
+            let faulty = verdicts(&studies, profile, subject.as_ref());
             let lost =
                 sound.iter().filter(|(id, verdict)| turned(**verdict, faulty[*id])).map(|(id, _)| id.clone());
             (*name, lost.collect())
