@@ -60,12 +60,13 @@ impl<const D: usize> Factors<D> {
             }
         };
         let total = |exists: &dyn Fn([i32; D]) -> bool| -> [f64; D] {
+            let ends = |bond: &FamilyBond<D>| {
+                [bond.offset, bond.offset.map(|n| -n)].into_iter().filter(|&offset| exists(offset)).count()
+                    as f64
+            };
+            let ends: Vec<f64> = family.iter().map(ends).collect();
             std::array::from_fn(|axis| {
-                let of = |(index, bond): (usize, &FamilyBond<D>)| {
-                    let ends = [bond.offset, bond.offset.map(|n| -n)];
-                    share(index, axis) * ends.into_iter().filter(|&offset| exists(offset)).count() as f64
-                };
-                family.iter().enumerate().map(of).sum()
+                ends.iter().enumerate().map(|(index, ends)| share(index, axis) * ends).sum()
             })
         };
         let bulk = total(&|_| true);

@@ -56,7 +56,9 @@ impl HoleAsked {
 impl Hole {
     /// Whether a node at this place is removed.
     pub fn holds(&self, x: [f64; 2], spacing: f64) -> bool {
-        distance(x, self.centre) < self.radius - SLACK * spacing
+        // Squares: this is asked of every bond.
+        let (away, reach) = ([x[0] - self.centre[0], x[1] - self.centre[1]], self.radius - SLACK * spacing);
+        reach > 0.0 && away[0] * away[0] + away[1] * away[1] < reach * reach
     }
 
     /// Whether it cuts the bond from a to b, in m: some point between them, ends included, lies in it.

@@ -57,25 +57,22 @@ impl Notch {
         libm::hypot(self.to[0] - self.from[0], self.to[1] - self.from[1])
     }
 
-    /// Distance of a point to the left of the line of the notch, in m.
-    fn left(&self, x: [f64; 2]) -> f64 {
-        let along = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
-        (along[0] * (x[1] - self.from[1]) - along[1] * (x[0] - self.from[0])) / self.length()
-    }
-
     /// Whether it cuts the bond from a to b, in m.
     pub fn cuts(&self, a: [f64; 2], b: [f64; 2], spacing: f64) -> bool {
-        let slack = SLACK * spacing;
-        let (left_a, left_b) = (self.left(a), self.left(b));
+        let (slack, length) = (SLACK * spacing, self.length());
+        let along = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
+        // How far a point lies to the left of the line of the notch, in m.
+        let left =
+            |x: [f64; 2]| (along[0] * (x[1] - self.from[1]) - along[1] * (x[0] - self.from[0])) / length;
+        let (left_a, left_b) = (left(a), left(b));
         if (left_a >= -slack) == (left_b >= -slack) {
             return false;
         }
         let share = (left_a / (left_a - left_b)).clamp(0.0, 1.0);
         let crossing = [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
-        let along =
-            [(self.to[0] - self.from[0]) / self.length(), (self.to[1] - self.from[1]) / self.length()];
-        let way = along[0] * (crossing[0] - self.from[0]) + along[1] * (crossing[1] - self.from[1]);
-        (-slack..=self.length() + slack).contains(&way)
+        let unit = along.map(|x| x / length);
+        let way = unit[0] * (crossing[0] - self.from[0]) + unit[1] * (crossing[1] - self.from[1]);
+        (-slack..=length + slack).contains(&way)
     }
 
     /// The same notch with a coordinate mirrored about a place.
