@@ -1,7 +1,7 @@
 //! The publications that claims cite, as BibTeX. Only what is known for certain is filled in.
 
 /// What a citation contains, and its entry.
-const ENTRIES: [(&str, &str); 4] = [
+const ENTRIES: [(&str, &str); 10] = [
     (
         "Silling 2000",
         "@article{silling2000,
@@ -35,6 +35,78 @@ const ENTRIES: [(&str, &str); 4] = [
   volume  = {190},
   pages   = {39--52},
   year    = {2014}
+}
+",
+    ),
+    (
+        "Bobaru et al. 2009",
+        "@article{bobaru2009,
+  author  = {Bobaru, Florin and Yang, Mijia and Alves, Leonardo F. and Silling, Stewart A. and Askari, Ebrahim and Xu, Jifeng},
+  title   = {Convergence, adaptive refinement, and scaling in 1D peridynamics},
+  journal = {International Journal for Numerical Methods in Engineering},
+  volume  = {77},
+  pages   = {852--877},
+  year    = {2009}
+}
+",
+    ),
+    (
+        "Seleson 2014",
+        "@article{seleson2014,
+  author  = {Seleson, Pablo},
+  title   = {Improved one-point quadrature algorithms for two-dimensional peridynamic models based on analytical calculations},
+  journal = {Computer Methods in Applied Mechanics and Engineering},
+  volume  = {282},
+  pages   = {184--217},
+  year    = {2014}
+}
+",
+    ),
+    (
+        "Seleson & Littlewood 2016",
+        "@article{selesonlittlewood2016,
+  author  = {Seleson, Pablo and Littlewood, David J.},
+  title   = {Convergence studies in meshfree peridynamic simulations},
+  journal = {Computers \\& Mathematics with Applications},
+  volume  = {71},
+  pages   = {2432--2448},
+  year    = {2016}
+}
+",
+    ),
+    (
+        "Hardy 1915",
+        "@article{hardy1915,
+  author  = {Hardy, G. H.},
+  title   = {On the expression of a number as the sum of two squares},
+  journal = {Quarterly Journal of Mathematics},
+  volume  = {46},
+  pages   = {263--283},
+  year    = {1915}
+}
+",
+    ),
+    (
+        "Le & Bobaru 2018",
+        "@article{lebobaru2018,
+  author  = {Le, Q. V. and Bobaru, F.},
+  title   = {Surface corrections for peridynamic models in elasticity and fracture},
+  journal = {Computational Mechanics},
+  volume  = {61},
+  pages   = {499--518},
+  year    = {2018}
+}
+",
+    ),
+    (
+        "Celik et al. 2008",
+        "@article{celik2008,
+  author  = {Celik, Ismail B. and Ghia, Urmila and Roache, Patrick J. and Freitas, Christopher J. and Coleman, Hugh and Raad, Peter E.},
+  title   = {Procedure for estimation and reporting of uncertainty due to discretization in CFD applications},
+  journal = {Journal of Fluids Engineering},
+  volume  = {130},
+  pages   = {078001},
+  year    = {2008}
 }
 ",
     ),

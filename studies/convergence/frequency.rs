@@ -230,7 +230,7 @@ where
 {
     fn claims(&self, place: &Place) -> Vec<Claim> {
         let rounding = "leapfrog turns a wave of the lattice by 2 asin(ΩΔt/2) a step exactly, and the reading is exact for one frequency; rounding alone is left";
-        vec![
+        let mut claims = vec![
             claim(place, "relation", "ω of marched waves over that of the dispersion relation, less 1: the largest")
                 .at_most(ErrorKind::Relative, 1e-6)
                 .because(Basis::Engineering, "a wave that differs by more is another wave: 1e-6 is a thousandth of the smallest difference between kernels that is of use; rounding leaves far less")
@@ -239,11 +239,23 @@ where
                 .at_most(ErrorKind::Relative, 1e-9)
                 .because(Basis::Rounding, rounding)
                 .source("lattice sums in double-double arithmetic, with leapfrog"),
-            claim(place, "straight", "what leaves the displacement that the wave started with, over its height: the largest")
+        ];
+        if D == 2 {
+            claims.push(
+                claim(
+                    place,
+                    "straight",
+                    "what leaves the displacement that the wave started with, over its height: the largest",
+                )
                 .at_most(ErrorKind::MaxOfPeak, 1e-10)
-                .because(Basis::Rounding, "an eigenvector of the lattice stays one; rounding of some 1e-16 a step is left")
+                .because(
+                    Basis::Rounding,
+                    "an eigenvector of the lattice stays one; rounding of some 1e-16 a step is left",
+                )
                 .source("eigenvectors of the lattice's matrix in double-double arithmetic"),
-        ]
+            );
+        }
+        claims
     }
 
     fn scenes(&self) -> Vec<Planned> {
@@ -271,12 +283,12 @@ read: 4 sin²(ωΔt/2) = Σ a(n)(2a(n) − a(n+1) − a(n−1)) / Σ a(n)²"
         let relation = read.iter().map(|read| relative(read.measured, read.relation)).collect();
         let reference = read.iter().map(|read| relative(read.measured, read.reference)).collect();
         let leaked = read.iter().map(|read| read.leaked.unwrap_or(f64::NAN)).collect();
+        let mut evidence = vec![("relation".into(), of(relation)), ("reference".into(), of(reference))];
+        if D == 2 {
+            evidence.push(("straight".into(), of(leaked)));
+        }
         Answer {
-            evidence: vec![
-                ("relation".into(), of(relation)),
-                ("reference".into(), of(reference)),
-                ("straight".into(), of(leaked)),
-            ],
+            evidence,
             tables: vec![self.table(&read, place)],
             figures: vec![self.figure(&read, place)],
             ..Answer::default()
@@ -334,7 +346,7 @@ where
                     Some((read.k * wave.march.scene.spacing, phase(read.k, read.measured?, read)))
                 });
                 series.push(
-                    Series::markers(format!("{angle:.2}°"), marched.collect())
+                    Series::markers(format!("{}°", (100.0 * angle).round() / 100.0), marched.collect())
                         .slot(slot)
                         .marker(Marker::Circle),
                 );

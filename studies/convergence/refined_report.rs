@@ -38,14 +38,12 @@ where
 {
     let floor = refined.floor();
     let both = || refined.tracks.iter().zip(seen);
+    let path = refined.tracks.iter().any(|track| track.sequence.refine == Refine::DeltaM);
+    let alone = if path { "weights as printed, δ → 0 and m → ∞" } else { "m → ∞ at fixed δ" };
     let groups: [(&str, bool, Vec<_>); 3] = [
         ("with the intended moduli", true, both().filter(|(track, _)| track.converges()).collect()),
         ("with other moduli than intended", false, both().filter(|(track, _)| track.stops()).collect()),
-        (
-            "weights as printed or m → ∞",
-            true,
-            both().filter(|(track, _)| !track.converges() && !track.stops()).collect(),
-        ),
+        (alone, true, both().filter(|(track, _)| !track.converges() && !track.stops()).collect()),
     ];
     let mut panels = Vec::new();
     let mut left_out = 0;

@@ -6,6 +6,7 @@ mod holed;
 mod interruption;
 mod limits;
 mod place;
+mod refinements;
 mod refusals;
 mod results;
 mod scenes;

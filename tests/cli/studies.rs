@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// Commands with shipped studies, and the folders of these.
-const KINDS: [&str; 2] = ["dispersion", "bar"];
+const KINDS: [&str; 3] = ["dispersion", "bar", "convergence"];
 
 /// Name and text of every shipped study file.
 pub fn shipped() -> Vec<(String, String)> {
@@ -30,7 +30,7 @@ fn shipped_files_are_accepted_as_files() {
 
 #[test]
 fn the_quick_profile_passes_and_threads_change_no_bit() {
-    for (kind, claims, files) in [("dispersion", 100, 60), ("bar", 20, 10)] {
+    for (kind, claims, files) in [("dispersion", 100, 60), ("bar", 20, 10), ("convergence", 80, 20)] {
         quick_profile(kind, claims, files);
     }
 }
