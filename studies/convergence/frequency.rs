@@ -1,11 +1,11 @@
 //! `asks = "frequency"`: plane waves marched in a periodic body, their frequency read from the motion and held against the
 //! dispersion relation that the lattice has by its sums.
 
+use super::frequency_report as report;
 use super::path::{Level, Refine, Sequence, Weights};
 use super::space::{In, Space};
 use super::wave::{HEIGHT, Marched, PlaneWave};
 use super::whole;
-use crate::bar::names::{LATTICE, lattice_cells};
 use crate::bar::pulsed::material;
 use crate::dispersion::curve::{Curve, Medium as Travels};
 use crate::dispersion::sweep::LatticeSweep;
@@ -21,9 +21,7 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
 use pd_verify::record::Trace;
-use pd_verify::report::plot::{Axis, Figure, Lines, Marker, Series};
 use pd_verify::scene::{Positive, Probe, Watch, Wrong};
-use pd_verify::table::{Cell, Table};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -52,24 +50,24 @@ pub struct Frequency<const D: usize> {
 }
 
 /// One wave on one lattice.
-struct Wave<const D: usize> {
-    of: PlaneWave<D>,
-    lattice: Lattice,
-    march: Marched<D>,
+pub struct Wave<const D: usize> {
+    pub of: PlaneWave<D>,
+    pub lattice: Lattice,
+    pub march: Marched<D>,
 }
 
 /// What was read from its motion.
-struct Read {
+pub struct Read {
     /// |k| in rad/m and c, the branch's own speed, in m/s.
-    k: f64,
-    speed: f64,
-    degrees: f64,
+    pub k: f64,
+    pub speed: f64,
+    pub degrees: f64,
     /// rad/s: read, by the relation under judgement, by the reference.
-    measured: Option<f64>,
-    relation: Option<f64>,
-    reference: Option<f64>,
+    pub measured: Option<f64>,
+    pub relation: Option<f64>,
+    pub reference: Option<f64>,
     /// What left the wave's own displacement, over its height.
-    leaked: Option<f64>,
+    pub leaked: Option<f64>,
 }
 
 /// The probe that sees every step.
@@ -120,11 +118,13 @@ impl FrequencyAsked {
         let safety = self.safety.unwrap_or(Positive(0.8)).0;
         let mut waves = Vec::new();
         for &lattice in lattices {
+            let mut limit = None;
             for &(direction, branch) in along {
                 for cells in &self.cells_per_wave.0 {
                     let wavelength = cells.0 * self.dx_m.0;
                     let of = PlaneWave { material, body, direction, branch, wavelength, periods, safety };
-                    let march = own_wave(&of, lattice, self.dx_m.0)?;
+                    let march = own_wave(&of, lattice, self.dx_m.0, limit)?;
+                    limit = Some(march.plan.time_step_s / march.plan.time_step_over_limit);
                     waves.push(Wave { of, lattice, march });
                 }
             }
@@ -134,7 +134,12 @@ impl FrequencyAsked {
 }
 
 /// The march of a wave that starts in the lattice's own displacement, seen at a node at every step.
-fn own_wave<const D: usize>(of: &PlaneWave<D>, lattice: Lattice, spacing: f64) -> Result<Marched<D>, Wrong>
+fn own_wave<const D: usize>(
+    of: &PlaneWave<D>,
+    lattice: Lattice,
+    spacing: f64,
+    limit: Option<f64>,
+) -> Result<Marched<D>, Wrong>
 where
     In: Space<D>,
 {
@@ -142,7 +147,7 @@ where
     let level = Level { m, spacing };
     let weights = Weights { kernel, volume_rule, calibrated };
     let sequence = Sequence { refine: Refine::Delta, weights, levels: vec![level] };
-    let mut march = of.ready(&sequence)?.remove(0);
+    let mut march = of.marches(&sequence, limit)?.remove(0);
     let own = In::polarisation(&whole::lattice(&march.scene), march.wavenumber, of.branch);
     march.amplitude = own.ok_or_else(|| {
         Wrong::new("lattice", "this lattice carries no such wave", "take another lattice or a longer wave")
@@ -161,7 +166,8 @@ impl<const D: usize> Wave<D>
 where
     In: Space<D>,
 {
-    fn curve(&self) -> Curve {
+    /// Its dispersion relation, with leapfrog.
+    pub fn curve(&self) -> Curve {
         let plan = &self.march.plan;
         let k = self.march.wavenumber;
         let up = if D == 2 { k[D - 1] } else { 0.0 };
@@ -289,100 +295,11 @@ read: 4 sin²(ωΔt/2) = Σ a(n)(2a(n) − a(n+1) − a(n−1)) / Σ a(n)²"
         }
         Answer {
             evidence,
-            tables: vec![self.table(&read, place)],
-            figures: vec![self.figure(&read, place)],
+            tables: vec![report::table(&self.waves, &read, place)],
+            figures: vec![report::figure(&self.title, &self.waves, &read, place)],
             ..Answer::default()
         }
     }
-}
-
-impl<const D: usize> Frequency<D>
-where
-    In: Space<D>,
-{
-    fn table(&self, read: &[Read], place: &Place) -> Table {
-        let own = ["branch", "angle_deg", "k_per_m", "omega_rad_per_s", "omega_relation_rad_per_s"];
-        let more = ["omega_reference_rad_per_s", "across_over_height"];
-        let mut table = Table::new("marched_waves.csv", &[&["case"][..], &LATTICE, &own, &more].concat());
-        for (wave, read) in self.waves.iter().zip(read) {
-            let start: [Cell; 1] = [place.case.clone().into()];
-            let branch = if D == 1 { Cell::Empty } else { wave.of.branch.name().into() };
-            let own: [Cell; 7] = [
-                branch,
-                read.degrees.into(),
-                read.k.into(),
-                read.measured.into(),
-                read.relation.into(),
-                read.reference.into(),
-                read.leaked.into(),
-            ];
-            let lattice = lattice_cells(Some((wave.lattice, wave.march.scene.spacing)));
-            table.push(start.into_iter().chain(lattice).chain(own).collect::<Vec<_>>());
-        }
-        table
-    }
-
-    /// Phase speeds read from marches over the curves of the relation, of the first lattice.
-    fn figure(&self, read: &[Read], place: &Place) -> Figure {
-        let first = self.waves.first().map(|wave| wave.lattice);
-        let mut panels = Vec::new();
-        for branch in [Branch::P, Branch::S] {
-            let mine: Vec<(&Wave<D>, &Read)> = self
-                .waves
-                .iter()
-                .zip(read)
-                .filter(|(wave, _)| wave.of.branch == branch && Some(wave.lattice) == first)
-                .collect();
-            if mine.is_empty() {
-                continue;
-            }
-            let mut angles: Vec<f64> = mine.iter().map(|(_, read)| read.degrees).collect();
-            angles.dedup();
-            let mut series = Vec::new();
-            for (slot, &angle) in angles.iter().enumerate() {
-                let along = mine.iter().filter(|(_, read)| read.degrees == angle);
-                let phase = |k: f64, omega: f64, read: &Read| omega / (k * read.speed);
-                let marched = along.clone().filter_map(|(wave, read)| {
-                    Some((read.k * wave.march.scene.spacing, phase(read.k, read.measured?, read)))
-                });
-                series.push(
-                    Series::markers(format!("{}°", (100.0 * angle).round() / 100.0), marched.collect())
-                        .slot(slot)
-                        .marker(Marker::Circle),
-                );
-                let line = along.clone().next().map(|(wave, _)| curve(wave)).unwrap_or_default();
-                series.push(Series::line("", line).slot(slot).width(1.4));
-            }
-            let axis = Axis::linear("ω/(ck)");
-            let mut panel = Lines::new(Axis::linear("kΔx"), axis, series);
-            if D == 2 {
-                panel = panel.titled(branch.name());
-            }
-            panels.push(panel);
-        }
-        let caption = format!(
-            "Phase speed over that of the local wave, with leapfrog: points read from marches, lines the relation by its sums. {}.",
-            first.map_or(String::new(), |lattice| lattice.to_string())
-        );
-        let mut figure = Figure::new(place.case.clone(), self.title.clone(), caption, Lines::default());
-        figure.panels = panels.into_iter().map(Into::into).collect();
-        figure
-    }
-}
-
-/// ω/(ck) by the reference's relation over kΔx, along a wave's direction and with its time step.
-fn curve<const D: usize>(wave: &Wave<D>) -> Vec<(f64, f64)>
-where
-    In: Space<D>,
-{
-    const SAMPLES: usize = 60;
-    let (curve, spacing) = (wave.curve(), wave.march.scene.spacing);
-    let end = curve.zone_edge().unwrap_or(f64::NAN);
-    let at = |n: usize| {
-        let k = end * n as f64 / SAMPLES as f64;
-        Some((k * spacing, curve.reference(k)?.omega / k))
-    };
-    (1..=SAMPLES).filter_map(at).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! How errors fall: refinements in δ, in m and in both, of waves, pulses and bodies at rest, with the order of each.
 
 pub mod frequency;
+mod frequency_report;
 pub mod path;
 pub mod pulse;
 pub mod refined;
@@ -9,6 +10,7 @@ pub mod rest;
 mod space;
 mod theory;
 pub mod volume_rules;
+mod volume_rules_report;
 pub mod wave;
 mod whole;
 

@@ -105,7 +105,7 @@ impl PointPulse {
                 ..Scene::bare(self.material, self.body, lattice, nodes, spacing, time)
             })
         };
-        let marches = whole::stepped(sequence, self.safety, scene)?;
+        let marches = whole::stepped(sequence, self.safety, None, scene)?;
         Ok(marches.into_iter().map(|(scene, plan)| Marched { scene, plan }).collect())
     }
 

@@ -2,6 +2,7 @@
 //! by volume rule. What is regular in it has an order; what comes from nodes that enter and leave the rim has none.
 
 use super::path::{Weights, WeightsAsked};
+use super::volume_rules_report as report;
 use crate::bar::names;
 use crate::dispersion::curve::{Curve, Medium, reference_kernel, reference_rule};
 use crate::dispersion::words::{BodyName, BranchName};
@@ -15,9 +16,7 @@ use pd_verify::dispersion::Branch;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::partial_volume::VolumeRule;
-use pd_verify::report::plot::{Axis, Dash, Figure, Guide, Lines, Marker, Series};
 use pd_verify::scene::{Positive, Wrong};
-use pd_verify::table::Table;
 use pd_verify::verdict::Evidence;
 use pd_verify_reference::{self as reference, continuum, lattice_points};
 use rayon::prelude::*;
@@ -40,22 +39,22 @@ pub struct VolumeRulesAsked {
 
 /// The case, checked.
 pub struct VolumeRules {
-    title: String,
-    body: Body,
-    m: Vec<f64>,
-    k_horizon: f64,
-    degrees: f64,
-    branch: Branch,
-    weights: Vec<Weights>,
+    pub title: String,
+    pub body: Body,
+    pub m: Vec<f64>,
+    pub k_horizon: f64,
+    pub degrees: f64,
+    pub branch: Branch,
+    pub weights: Vec<Weights>,
 }
 
 /// The errors of one family of weights.
-struct Seen {
+pub struct Seen {
     /// (m, ω²(lattice)/ω²(continuum) − 1).
-    errors: Vec<(f64, f64)>,
+    pub errors: Vec<(f64, f64)>,
     /// By theory, at the same m: the smooth part, and what is irregular.
-    smooth: Option<Vec<f64>>,
-    irregular: Option<Vec<f64>>,
+    pub smooth: Option<Vec<f64>>,
+    pub irregular: Option<Vec<f64>>,
 }
 
 /// Largest m that is run.
@@ -213,8 +212,8 @@ full: waves of the rim m^(−3/2) from every reciprocal vector g, and ties |r| =
                 Trend::Mixed => push("scatter", seen.scatter()),
             }
         }
-        answer.tables.push(self.table(&seen, place));
-        answer.figures.push(self.figure(&seen, place));
+        answer.tables.push(report::table(self, &seen, place));
+        answer.figures.push(report::figure(self, &seen, place));
         answer
     }
 }
@@ -278,7 +277,8 @@ impl Seen {
 }
 
 impl VolumeRules {
-    fn names(&self) -> Vec<String> {
+    /// Of the weights.
+    pub fn names(&self) -> Vec<String> {
         let lattices: Vec<Lattice> = self.weights.iter().map(|weights| weights.lattice(self.m[0])).collect();
         names::names(&lattices)
     }
@@ -314,78 +314,5 @@ impl VolumeRules {
             smooth: smooth.map(|smooth| self.m.iter().map(|m| smooth / (m * m)).collect()),
             irregular: rough.then(|| self.m.iter().map(irregular).collect()),
         })
-    }
-
-    fn table(&self, seen: &[Seen], place: &Place) -> Table {
-        let columns = [
-            "case",
-            "kernel",
-            "p",
-            "volume_rule",
-            "calibrated",
-            "m",
-            "k_horizon",
-            "angle_deg",
-            "branch",
-            "omega_squared_relative_error",
-            "smooth_part",
-            "irregular_part",
-        ];
-        let mut table = Table::new("volume_rules.csv", &columns);
-        for (weights, seen) in self.weights.iter().zip(seen) {
-            for (index, &(m, error)) in seen.errors.iter().enumerate() {
-                table.push(vec![
-                    place.case.clone().into(),
-                    weights.kernel.name().into(),
-                    weights.kernel.p().into(),
-                    weights.volume_rule.name().into(),
-                    weights.calibrated.into(),
-                    m.into(),
-                    self.k_horizon.into(),
-                    self.degrees.into(),
-                    self.branch.name().into(),
-                    error.into(),
-                    seen.smooth.as_ref().map(|smooth| smooth[index]).into(),
-                    seen.irregular.as_ref().map(|irregular| irregular[index]).into(),
-                ]);
-            }
-        }
-        table
-    }
-
-    /// A panel for each volume rule: |e| over 1/m, and the smooth part of the law.
-    fn figure(&self, seen: &[Seen], place: &Place) -> Figure {
-        let caption = format!(
-            "Relative error of ω² of {} waves at kδ = {}, {}° to the lattice, against the nonlocal continuum, at every whole m. Lines: the smooth part of the law of large m.",
-            self.branch.name(),
-            self.k_horizon,
-            self.degrees
-        );
-        let mut figure = Figure::new(place.case.clone(), self.title.clone(), caption, Lines::default());
-        figure.panels.clear();
-        for rule in VolumeRule::ALL {
-            let mut series = Vec::new();
-            let mine = self.weights.iter().zip(seen).zip(self.names());
-            for (slot, ((weights, seen), name)) in
-                mine.filter(|((w, _), _)| w.volume_rule == rule).take(7).enumerate()
-            {
-                let points = seen.errors.iter().map(|(m, error)| (1.0 / m, error.abs()));
-                let marker = if weights.calibrated { Marker::Cross } else { Marker::Circle };
-                series.push(Series::markers(name, points.collect()).slot(slot).marker(marker));
-                if let Some(smooth) = &seen.smooth {
-                    let line = self.m.iter().zip(smooth).map(|(m, smooth)| (1.0 / m, smooth.abs()));
-                    series.push(Series::line("", line.collect()).slot(slot).dash(Dash::Dashed).width(1.2));
-                }
-            }
-            if series.is_empty() {
-                continue;
-            }
-            let order = if rule == VolumeRule::Full { 1.5 } else { 2.0 };
-            let panel = Lines::new(Axis::log("1/m = Δx/δ"), Axis::log("|error| of ω²"), series)
-                .titled(format!("{} volumes", rule.name().replace('_', " ")))
-                .guide(Guide::Slope { order, label: format!("order {order}") });
-            figure = figure.panel(panel);
-        }
-        figure
     }
 }

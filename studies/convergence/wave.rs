@@ -175,9 +175,14 @@ where
     }
 
     /// The marches of all levels.
-    pub fn ready(&self, sequence: &Sequence) -> Result<Vec<Marched<D>>, Wrong> {
+    fn ready(&self, sequence: &Sequence) -> Result<Vec<Marched<D>>, Wrong> {
+        self.marches(sequence, None)
+    }
+
+    /// The same where the limit on the time step of the coarsest level may be known, in s.
+    pub fn marches(&self, sequence: &Sequence, limit: Option<f64>) -> Result<Vec<Marched<D>>, Wrong> {
         let scene = |level, step| self.scene(sequence, level, step);
-        let scenes = whole::stepped(sequence, self.safety, scene)?;
+        let scenes = whole::stepped(sequence, self.safety, limit, scene)?;
         let march = |((scene, plan), level): ((Scene<D>, Plan), &Level)| {
             let (wavenumber, amplitude) = self.shape(sequence, *level)?;
             Ok(Marched { scene, plan, wavenumber, amplitude })

@@ -27,14 +27,16 @@ pub fn last(record: &Record) -> Result<&[Vec<f64>], String> {
 }
 
 /// The scenes of all levels with their plans: at `safety` of the limit where the path begins, and the same cΔt/Δx all
-/// along it. (At fixed δ the limit tends to a constant, and so would the error of the time step.)
+/// along it; `known` is the limit of the coarsest level in s, if it need not be searched for. (At fixed δ the limit tends to a constant, and so would the error of the time step.)
 pub fn stepped<const D: usize>(
     sequence: &Sequence,
     safety: f64,
+    known: Option<f64>,
     scene: impl Fn(Level, StepRule) -> Result<Scene<D>, Wrong>,
 ) -> Result<Vec<(Scene<D>, Plan)>, Wrong> {
     let coarsest = sequence.levels[0];
-    let coarse = Plan::of(&scene(coarsest, StepRule::OfLimit(safety))?)?;
+    let coarse = scene(coarsest, StepRule::OfLimit(safety))?;
+    let coarse = known.map_or_else(|| Plan::of(&coarse), |limit| Plan::below(&coarse, limit))?;
     let limit = coarse.time_step_s / coarse.time_step_over_limit;
     let level = |&level: &Level| {
         let mut made = scene(level, StepRule::OfLimit(safety))?;

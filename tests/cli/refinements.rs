@@ -31,9 +31,9 @@ weights = { kernel = "constant", volume_rule = ["full", "linear"] }
 
 const SQUARE: &str = r#"asks = "manufactured"
 body = "plane_strain"
+path = { refine = "delta_m", m = [2, 3, 4, 6, 8], dx_m = [0.0625, 0.027777777777777776, 0.015625, 0.006944444444444444, 0.00390625] }
+weights = { kernel = "gaussian", p = 1, volume_rule = "linear", calibrated = true }
 side_m = 1
-path = { refine = "delta_m", m = [2, 3, 4], dx_m = [0.0625, 0.027777777777777776, 0.015625] }
-weights = { kernel = "conical", volume_rule = "linear", calibrated = true }
 "#;
 
 const RULES: &str = r#"asks = "volume_rules"
@@ -121,7 +121,8 @@ fn what_cannot_be_refined_is_refused_and_nothing_is_written() {
         (BAR, "m = [4, 8, 16, 32]", "m = [4, 8, 8]", "each finer than the one before"),
         (BAR, "width_m = 0.08", "width_m = 0.3", "reaches beyond its period"),
         (BAR, "m = [4, 8, 16, 32]", "m = [3, 4, 5]", "does not divide the body"),
-        (SQUARE, "side_m = 1\n", "side_m = 1\naround = \"held_frame\"\n", "leaves little of"),
+        (SQUARE, "m = [2, 3, 4, 6, 8]", "m = [20, 30, 40, 60, 80]", "larger than the body"),
+        (SQUARE, "side_m = 1\n", "side_m = 0.25\naround = \"held_frame\"\n", "leaves little of"),
         (RULES, "m = [8, 64]", "m = [2, 64]", "shows no law of large m"),
         (RULES, "\"plane_stress\"", "\"bar\"", "a bar has no rim"),
         (WAVES, "cells_per_wave = 12", "cells_per_wave = 1", "shorter than the family reaches"),
