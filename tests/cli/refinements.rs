@@ -120,7 +120,7 @@ fn what_cannot_be_refined_is_refused_and_nothing_is_written() {
         (BAR, "refine = \"m\"", "refine = \"delta\"", "a refinement of delta needs dx_m"),
         (BAR, "m = [4, 8, 16, 32]", "m = [4, 8, 8]", "each finer than the one before"),
         (BAR, "width_m = 0.08", "width_m = 0.3", "reaches beyond its period"),
-        (BAR, "m = [4, 8, 16, 32]", "m = [3, 4, 5]", "does not divide the body"),
+        (BAR, "horizon_m = 0.1", "horizon_m = 0.13", "does not divide the body"),
         (SQUARE, "m = [2, 3, 4, 6, 8]", "m = [20, 30, 40, 60, 80]", "larger than the body"),
         (SQUARE, "side_m = 1\n", "side_m = 0.25\naround = \"held_frame\"\n", "leaves little of"),
         (RULES, "m = [8, 64]", "m = [2, 64]", "shows no law of large m"),
