@@ -1,12 +1,16 @@
 //! How errors fall: refinements in δ, in m and in both, of waves, pulses and bodies at rest, with the order of each.
 
 pub mod frequency;
+pub mod patch;
+mod patch_report;
 pub mod path;
 pub mod pulse;
 pub mod refined;
 mod refined_report;
 pub mod rest;
 mod space;
+pub mod surface;
+mod surface_report;
 mod theory;
 pub mod wave;
 mod whole;
@@ -19,10 +23,12 @@ pub const WORDS: &[Word] = &[
     Word::of::<pulse::PointPulseAsked>("point_pulse"),
     Word::of::<frequency::FrequencyAsked>("frequency"),
     Word::of::<rest::ManufacturedAsked>("manufactured"),
+    Word::of::<patch::PatchAsked>("patch"),
+    Word::of::<surface::SurfaceAsked>("surface"),
 ];
 
 /// Files that cases share; no figure may take their names.
-pub const TABLES: &[&str] = &["convergence", "marched_waves", "verdicts"];
+pub const TABLES: &[&str] = &["convergence", "marched_waves", "patch", "surface_effect", "verdicts"];
 
 /// Ends of the names of figures beside the one that is called like its case.
 pub const SUFFIXES: &[&str] = &[];

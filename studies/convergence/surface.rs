@@ -1,0 +1,305 @@
+//! `asks = "surface"`: how free edges enter the order. A plate pulled at a free edge, at rest, with each surface correction:
+//! bonds missing within δ of an edge change the error by a share of order δ/L, and a corner of two free edges adds a logarithm.
+
+use super::path::{Level, PathAsked, Refine, Sequence, WeightsAsked};
+use super::surface_report as report;
+use super::whole;
+use crate::bar::names;
+use crate::bar::pulsed::material;
+use crate::dispersion::curve::reference_lattice;
+use crate::dispersion::sweep::distinct;
+use crate::dispersion::words::BodyName;
+use crate::input::{OneOrMany, one_or_many};
+use crate::levels::{self, Errors, NORMS, furthest, relative, tail_order};
+use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim};
+use crate::scene::size::cells;
+use crate::subject::Subject;
+use crate::written::{Asked, Written};
+use pd_verify::claim::{Basis, Claim, ErrorKind};
+use pd_verify::constraints::{Edge, Edges};
+use pd_verify::forces::Traction;
+use pd_verify::forces::surface::Correction;
+use pd_verify::material::Body;
+use pd_verify::plan::Plan;
+use pd_verify::scene::{Axis, HistoryAsked, Positive, Scene, Side, StepRule, Time, Wrong};
+use pd_verify::verdict::Evidence;
+use pd_verify_reference::lattice::plane_moduli;
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::sync::Arc;
+
+/// The case as written.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceAsked {
+    /// A plate.
+    pub body: BodyName,
+    /// L: side of a quarter of the plate, mirrored left and bottom.
+    pub side_m: Positive,
+    /// Default: `none`.
+    pub correction: Option<OneOrMany<Correction>>,
+    pub path: PathAsked,
+    pub weights: WeightsAsked,
+}
+
+/// The case, checked.
+pub struct Surface {
+    pub title: String,
+    pub side: f64,
+    pub tracks: Vec<Track>,
+}
+
+/// A refinement with one correction.
+pub struct Track {
+    /// Of the lattice alone.
+    pub name: String,
+    pub correction: Correction,
+    pub sequence: Sequence,
+    levels: Vec<(Scene<2>, Plan)>,
+}
+
+/// What one level showed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pulled {
+    /// Of the displacement, relative to the local answer.
+    pub errors: Errors,
+    /// How much further than in the local plate the loaded edge moves, over its way there; negative where it is too stiff.
+    pub softness: f64,
+}
+
+/// σ/C₁₁; the body is linear, so that it is of no account.
+const LOAD: f64 = 1e-6;
+/// Long-wave moduli this close to the intended ones are the intended ones.
+const RIGHT: f64 = 1e-12;
+/// Errors below may be what conjugate gradients lose.
+const FLOOR: f64 = 1e-9;
+
+impl Asked for SurfaceAsked {
+    type Question = Surface;
+
+    fn check(&self, written: &Written<'_>) -> Result<Surface, Wrong> {
+        let body = Body::from(self.body);
+        if body == Body::Bar {
+            return Err(Wrong::new(
+                "body",
+                "a bar has no edges to pull along",
+                "take a plate, or asks = \"statics\"",
+            ));
+        }
+        if self.path.refine != Refine::Delta {
+            let message = "the surface effect is ordered by δ at fixed m";
+            return Err(Wrong::new("path.refine", message, "take refine = \"delta\""));
+        }
+        let (material, title) = (material(written)?, written.title.to_owned());
+        let corrections =
+            distinct(self.correction.clone().unwrap_or_else(|| one_or_many(Correction::None)).0);
+        let sequences = self.path.sequences(&self.weights)?;
+        let finest: Vec<_> = sequences.iter().map(|one| one.lattice(one.finest())).collect();
+        let mut tracks = Vec::new();
+        for (sequence, name) in sequences.iter().zip(names::names(&finest)) {
+            let moduli = plane_moduli(reference_lattice(sequence.lattice(sequence.finest())));
+            if [moduli.c11, moduli.c12].iter().any(|of| (of - 1.0).abs() > RIGHT) {
+                let message =
+                    format!("{name}: its moduli are not the intended ones, so that its error does not fall");
+                return Err(Wrong::new("weights.calibrated", message, "take calibrated = true"));
+            }
+            for &correction in &corrections {
+                let ready = |level: &Level| {
+                    let lattice = sequence.lattice(*level);
+                    let (nodes, spacing) = cells([self.side_m.0; 2], level.spacing)
+                        .map_err(|wrong| Wrong { key: "path".into(), ..wrong })?;
+                    let time = Time { duration: 1.0, step: StepRule::OfLimit(1.0) };
+                    let bare = Scene::bare(material, body, lattice, nodes, spacing, time);
+                    let stress_pa = LOAD * bare.modulus();
+                    let pull = Traction {
+                        edge: Side::Right,
+                        axis: Axis::X,
+                        stress_pa,
+                        history: HistoryAsked::step(),
+                    };
+                    let scene = Scene {
+                        name: format!("{}, surface {}", bare.name, correction.name()),
+                        edges: Edges([[Edge::MirrorOdd, Edge::Free]; 2]),
+                        surface: correction,
+                        effects: vec![Arc::new(pull)],
+                        ..bare
+                    };
+                    let plan = Plan::of(&scene)?;
+                    Ok((scene, plan))
+                };
+                let levels = sequence.levels.iter().map(ready).collect::<Result<_, Wrong>>()?;
+                let (name, sequence) = (name.clone(), sequence.clone());
+                tracks.push(Track { name, correction, sequence, levels });
+            }
+        }
+        Ok(Surface { title, side: self.side_m.0, tracks })
+    }
+}
+
+/// The local plate under σ alone: u = ε(x, −y/3), ε = 9σ/(8C₁₁), as C₁₂ = C₁₁/3 in both plane states.
+fn local(x: [f64; 2]) -> [f64; 2] {
+    let strain = LOAD * 9.0 / 8.0;
+    [strain * x[0], -strain * x[1] / 3.0]
+}
+
+fn solve(subject: &dyn Subject, scene: &Scene<2>) -> Result<Pulled, String> {
+    let rest = subject.rest_plate(scene)?;
+    let [columns, rows] = scene.nodes;
+    if rest.len() != columns * rows {
+        return Err(format!("{} displacements for {columns} by {rows} nodes", rest.len()));
+    }
+    let places = whole::nodes(scene).map(|node| node.map(|n| (n as f64 + 0.5) * scene.spacing));
+    let pairs = rest.iter().zip(places).flat_map(|(u, x)| {
+        let exact = local(x);
+        [(u[0], exact[0]), (u[1], exact[1])]
+    });
+    let edge = rest.chunks(columns).map(|row| row[columns - 1][0]).sum::<f64>() / rows as f64;
+    let exact = local([(columns as f64 - 0.5) * scene.spacing, 0.0])[0];
+    Ok(Pulled { errors: relative(pairs), softness: edge / exact - 1.0 })
+}
+
+impl Track {
+    /// δ in m and the errors of each level.
+    pub fn refinement(&self, pulled: &[Pulled]) -> levels::Sequence {
+        let steps = self.sequence.levels.iter().map(|level| self.sequence.step(*level));
+        let name = format!("{}, {}", self.name, called(self.correction));
+        levels::Sequence { name, levels: steps.zip(pulled.iter().map(|one| one.errors)).collect() }
+    }
+}
+
+/// What a correction is called in legends and notes.
+pub fn called(correction: Correction) -> &'static str {
+    match correction {
+        Correction::None => "no correction",
+        Correction::Energy => "energy",
+        Correction::Volume => "volume",
+    }
+}
+
+/// Growth of error/δ per factor e of δ, the finest pair's over that before: 1 for δ (a + b ln(L/δ)), 0 or noise for δ alone.
+fn logarithm(levels: &levels::Sequence) -> Evidence {
+    let share: Vec<(f64, f64)> =
+        levels.in_norm(2).into_iter().map(|(horizon, error)| (libm::log(horizon), error / horizon)).collect();
+    let growth = |pair: &[(f64, f64)]| (pair[1].1 - pair[0].1) / (pair[0].0 - pair[1].0);
+    let growths: Vec<f64> = share.windows(2).map(growth).collect();
+    let ratio = match growths[..] {
+        [.., before, finest] => finest / before,
+        _ => f64::NAN,
+    };
+    let listed: Vec<String> = growths.iter().map(|growth| format!("{growth:.3}")).collect();
+    Evidence {
+        computed: Some(ratio),
+        reference: Some(1.0),
+        error: Some((ratio - 1.0).abs()),
+        note: format!("{}: growths {} per m", levels.name, listed.join(", ")),
+        ..Evidence::default()
+    }
+}
+
+impl Surface {
+    fn corrections(&self) -> Vec<Correction> {
+        distinct(self.tracks.iter().map(|track| track.correction))
+    }
+
+    fn follow(&self, subject: &dyn Subject) -> Result<Vec<Vec<Pulled>>, String> {
+        let solved: Vec<Result<Vec<Pulled>, String>> = self
+            .tracks
+            .par_iter()
+            .map(|track| {
+                let each: Vec<_> = track.levels.par_iter().map(|(scene, _)| solve(subject, scene)).collect();
+                each.into_iter().collect()
+            })
+            .collect();
+        solved.into_iter().collect()
+    }
+
+    fn evidence(&self, pulled: &[Vec<Pulled>]) -> Vec<(String, Evidence)> {
+        let mut evidence = Vec::new();
+        for correction in self.corrections() {
+            let mine = || {
+                let all = self.tracks.iter().zip(pulled);
+                let mine = all.filter(move |(track, _)| track.correction == correction);
+                mine.map(|(track, pulled)| track.refinement(pulled))
+            };
+            for (norm, name) in NORMS.iter().enumerate().take(2) {
+                let orders = mine().map(|levels| tail_order(&levels.name, &levels.in_norm(norm), 1.0, FLOOR));
+                evidence.extend(furthest(orders).map(|found| (order_name(name, correction), found)));
+            }
+            let corners = furthest(mine().map(|levels| logarithm(&levels)));
+            evidence.extend(corners.map(|found| (format!("corner_{}", correction.name()), found)));
+        }
+        evidence
+    }
+}
+
+fn order_name(norm: &str, correction: Correction) -> String {
+    format!("order_{norm}_{}", correction.name())
+}
+
+impl Question for Surface {
+    fn claims(&self, place: &Place) -> Vec<Claim> {
+        let source = "uniform tension of local elasticity, u = 9σ/(8C₁₁) (x, −y/3)";
+        let mut claims = Vec::new();
+        for correction in self.corrections() {
+            let with = called(correction);
+            for norm in NORMS.iter().take(2) {
+                let quantity = format!(
+                    "order in δ of the error in {norm} of a plate pulled at free edges, {with}, furthest lattice"
+                );
+                claims.push(
+                    claim(place, &order_name(norm, correction), quantity)
+                        .order(1.0, 0.1)
+                        .because(Basis::Theory, "bonds are missing within δ of a free edge, corrected or not: a layer as wide as δ of other compliance changes displacements by a share of order δ/L (in a bar by cδ/L exactly; Le and Bobaru 2018); 0.1 for δ/L ln(L/δ), which the corner adds")
+                        .source(source),
+                );
+            }
+            let quantity = format!(
+                "growth of the largest error over δ per factor of L/δ, the finest pair's over that before, {with}, furthest lattice"
+            );
+            claims.push(
+                claim(place, &format!("corner_{}", correction.name()), quantity)
+                    .within(ErrorKind::Relative, 0.05)
+                    .because(Basis::Theory, "the layer along the free edge carries too little or too much by a force cσδ, which enters at the corner like a point force: its displacement grows as ln(L/δ) there (Flamant), the largest error is δ(a + b ln(L/δ)); a power of 0.93 would show 0.05, what follows falls with δ")
+                    .source(source),
+            );
+        }
+        claims
+    }
+
+    fn scenes(&self) -> Vec<Planned> {
+        self.tracks.iter().flat_map(|track| &track.levels).map(|(_, plan)| plan.clone()).collect()
+    }
+
+    fn effort(&self) -> Effort {
+        let mut total = Effort::default();
+        for (scene, plan) in self.tracks.iter().flat_map(|track| &track.levels) {
+            // About six iterations for each node of a side.
+            let times = 6 * scene.nodes[0] as u64;
+            total += Effort {
+                curves: 1,
+                node_updates: plan.nodes * times,
+                bond_evaluations: plan.bonds * times,
+                ..Effort::default()
+            };
+        }
+        total
+    }
+
+    fn equations(&self) -> &'static str {
+        "0 = Σ_b f_b w_b n (n·(u_b − u)) + b, b_x = σ/Δx on the cells of the right edge; u odd about left and bottom, top free
+energy: f = 1/√Σ (n_a/λ_a)², λ_a bulk over own energy density stretched along a; volume: f = 2V₀/(V_i + V_j)
+δ → 0: u = 9σ/(8C₁₁) (x, −y/3); error = cδ/L in l1 and l2, δ/L (a + b ln(L/δ)) at the corner of two free edges"
+    }
+
+    fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
+        match self.follow(subject) {
+            Err(failure) => Answer::failed(&self.claims(place), &failure),
+            Ok(pulled) => Answer {
+                evidence: self.evidence(&pulled),
+                tables: report::tables(self, &pulled, place),
+                figures: vec![report::figure(self, &pulled, place)],
+            },
+        }
+    }
+}
