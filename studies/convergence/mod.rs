@@ -1,6 +1,10 @@
 //! How errors fall: refinements in δ, in m and in both, of waves, pulses and bodies at rest, with the order of each.
 
+mod framed;
 pub mod frequency;
+pub mod grids;
+mod grids_report;
+mod grids_said;
 pub mod patch;
 mod patch_report;
 pub mod path;
@@ -25,10 +29,12 @@ pub const WORDS: &[Word] = &[
     Word::of::<rest::ManufacturedAsked>("manufactured"),
     Word::of::<patch::PatchAsked>("patch"),
     Word::of::<surface::SurfaceAsked>("surface"),
+    Word::of::<grids::GridsAsked>("grid_convergence"),
 ];
 
 /// Files that cases share; no figure may take their names.
-pub const TABLES: &[&str] = &["convergence", "marched_waves", "patch", "surface_effect", "verdicts"];
+pub const TABLES: &[&str] =
+    &["convergence", "grid_convergence", "marched_waves", "patch", "surface_effect", "verdicts"];
 
 /// Ends of the names of figures beside the one that is called like its case.
 pub const SUFFIXES: &[&str] = &[];

@@ -1,43 +1,28 @@
 //! `asks = "patch"`: fields that a lattice keeps exactly, found at rest in a held frame: uniform strain by every lattice,
 //! bending in the plane by those with the intended moduli. Others feel a force that no refinement takes away.
 
+use super::framed::{Field, Framed, STRAIN};
 use super::patch_report as report;
 use super::path::{Level, PathAsked, Refine, Sequence, WeightsAsked};
-use super::space::{In, Space};
-use super::whole;
 use crate::bar::names;
 use crate::bar::pulsed::material;
 use crate::dispersion::curve::reference_lattice;
 use crate::dispersion::words::BodyName;
 use crate::levels::{self, Errors, relative};
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of};
-use crate::scene::size::cells;
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::compare::richardson::extrapolate;
-use pd_verify::constraints::HeldFrame;
-use pd_verify::material::{Body, Material};
-use pd_verify::plan::Plan;
-use pd_verify::scene::{Initial, Positive, Scene, Shape, StepRule, Time, Wrong};
+use pd_verify::material::Body;
+use pd_verify::scene::{Positive, Scene, Wrong};
 use pd_verify::verdict::Evidence;
 use pd_verify_reference::bent_plate::BentPlate;
 use pd_verify_reference::lattice::{Moduli, plane_moduli};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::sync::Arc;
-
-/// What the frame is held at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Field {
-    /// Uniform strains, one after the other: along x, along y, shear.
-    Strain,
-    /// u_x = −κxy, u_y = ½κ(x² + y²/3), about the middle.
-    Bending,
-}
 
 /// The case as written.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -69,14 +54,6 @@ pub struct Track {
     pub moduli: Vec<Moduli>,
 }
 
-/// A plate in its frame, once for each field.
-struct Framed {
-    scenes: Vec<Scene<2>>,
-    plan: Plan,
-    /// Width of the frame in nodes.
-    held: usize,
-}
-
 /// What one level showed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kept {
@@ -91,8 +68,6 @@ pub struct Kept {
     pub force_far: f64,
 }
 
-/// The strain, or the curvature times the side; the body is linear, so that it is of no account.
-const STRAIN: f64 = 1e-6;
 /// Long-wave moduli this close to the intended ones are the intended ones.
 const RIGHT: f64 = 1e-12;
 
@@ -113,7 +88,10 @@ impl Asked for PatchAsked {
         let finest: Vec<_> = sequences.iter().map(|one| one.lattice(one.finest())).collect();
         let mut tracks = Vec::new();
         for (sequence, name) in sequences.into_iter().zip(names::names(&finest)) {
-            let framed = |level: &Level| self.framed(material, body, &sequence, *level);
+            let framed = |level: &Level| {
+                let lattice = sequence.lattice(*level);
+                Framed::new(self.field, (material, body), lattice, self.side_m.0, level.spacing)
+            };
             let levels = sequence.levels.iter().map(framed).collect::<Result<_, _>>()?;
             let of = |level: &Level| plane_moduli(reference_lattice(sequence.lattice(*level)));
             let moduli = sequence.levels.iter().map(of).collect();
@@ -133,58 +111,6 @@ impl Asked for PatchAsked {
     }
 }
 
-impl PatchAsked {
-    fn framed(
-        &self,
-        material: Material,
-        body: Body,
-        sequence: &Sequence,
-        level: Level,
-    ) -> Result<Framed, Wrong> {
-        let side = self.side_m.0;
-        let (free, spacing) =
-            cells([side; 2], level.spacing).map_err(|wrong| Wrong { key: "path".into(), ..wrong })?;
-        let lattice = sequence.lattice(level);
-        let held = <In as Space<2>>::reach(lattice)
-            .map_err(|wrong| Wrong::new("path.m", wrong.to_string(), wrong.cure()))?;
-        let nodes = free.map(|count| count + 2 * held);
-        let time = Time { duration: 1.0, step: StepRule::OfLimit(1.0) };
-        let bare = Scene::bare(material, body, lattice, nodes, spacing, time);
-        let middle = bare.size().map(|side| 0.5 * side);
-        let of = |fields: Vec<Initial<2>>| Scene {
-            effects: vec![Arc::new(HeldFrame { layers: held, fields: fields.clone() })],
-            displacement: fields,
-            ..bare.clone()
-        };
-        let scenes: Vec<Scene<2>> = self.field.all(side, middle).into_iter().map(of).collect();
-        let plan = Plan::of(&bare)?;
-        Ok(Framed { scenes, plan, held })
-    }
-}
-
-impl Field {
-    /// The fields that are held, each by its components.
-    fn all(self, side: f64, about: [f64; 2]) -> Vec<Vec<Initial<2>>> {
-        let term = |component, amplitude, powers| Initial {
-            component,
-            amplitude,
-            shape: Shape::Monomial { about, powers },
-        };
-        match self {
-            Self::Strain => vec![
-                vec![term(0, STRAIN, [1, 0])],
-                vec![term(1, STRAIN, [0, 1])],
-                vec![term(0, STRAIN, [0, 1]), term(1, STRAIN, [1, 0])],
-            ],
-            Self::Bending => {
-                let bent = BentPlate::intended(STRAIN / side);
-                let (half, swollen) = (0.5 * bent.curvature, 0.5 * bent.curvature * bent.swelling);
-                vec![vec![term(0, -bent.curvature, [1, 1]), term(1, half, [2, 0]), term(1, swollen, [0, 2])]]
-            }
-        }
-    }
-}
-
 impl Track {
     /// Whether every level has the intended moduli.
     pub fn right(&self) -> bool {
@@ -193,42 +119,11 @@ impl Track {
     }
 }
 
-impl Framed {
-    fn free(&self, node: [usize; 2]) -> bool {
-        let nodes = self.plan_nodes();
-        (0..2).all(|axis| node[axis] >= self.held && node[axis] + self.held < nodes[axis])
-    }
-
-    fn plan_nodes(&self) -> [usize; 2] {
-        self.scenes[0].nodes
-    }
-
-    /// The exact displacements of free nodes.
-    fn exact(&self, scene: &Scene<2>) -> Vec<[f64; 2]> {
-        let at = |node: [usize; 2]| {
-            let x = node.map(|n| (n as f64 + 0.5) * scene.spacing);
-            let mut u = [0.0; 2];
-            scene.displacement.iter().for_each(|field| u[field.component] += field.at(x));
-            u
-        };
-        whole::nodes(scene).filter(|node| self.free(*node)).map(at).collect()
-    }
-
-    /// What is known of all nodes, of the free ones.
-    fn of_free(&self, all: Vec<[f64; 2]>) -> Result<Vec<[f64; 2]>, String> {
-        if all.len() != self.plan_nodes().iter().product::<usize>() {
-            return Err(format!("{} answers for {:?} nodes", all.len(), self.plan_nodes()));
-        }
-        let each = whole::nodes(&self.scenes[0]).zip(all);
-        Ok(each.filter(|(node, _)| self.free(*node)).map(|(_, u)| u).collect())
-    }
-}
-
 impl Patch {
     /// Cells along a side of the largest square, frame included.
     fn cells(&self) -> f64 {
         let all = self.tracks.iter().flat_map(|track| &track.levels);
-        all.map(|level| level.plan_nodes()[0] as f64).fold(0.0, f64::max)
+        all.map(|level| level.nodes()[0] as f64).fold(0.0, f64::max)
     }
 
     /// What conjugate gradients may lose, over the largest displacement: κ(1e-14 + 10 ε).
@@ -368,7 +263,7 @@ impl Question for Patch {
         let mut total = Effort::default();
         for level in self.tracks.iter().flat_map(|track| &track.levels) {
             // About six iterations for each node of a side.
-            let times = level.scenes.len() as u64 * (6 * level.plan_nodes()[0] as u64 + 1);
+            let times = level.scenes.len() as u64 * (6 * level.nodes()[0] as u64 + 1);
             total += Effort {
                 curves: level.scenes.len() as u64,
                 node_updates: level.plan.nodes * times,

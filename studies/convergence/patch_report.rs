@@ -1,6 +1,7 @@
 //! Rows and figures of patch tests: what is left of a field that should be kept, and the force that other moduli leave.
 
-use super::patch::{Field, Kept, Patch, Track, refinement};
+use super::framed::Field;
+use super::patch::{Kept, Patch, Track, refinement};
 use crate::bar::names::{LATTICE, lattice_cells};
 use crate::levels;
 use crate::question::Place;
@@ -65,7 +66,10 @@ pub fn figures(patch: &Patch, kept: &[Vec<Kept>], place: &Place) -> Vec<Figure> 
         panels.push(Lines::new(Axis::log("δ (m)"), Axis::log("error in L2"), series).titled(title));
     }
     if patch.field == Field::Bending {
-        panels.push(forces(&both().collect::<Vec<_>>()));
+        let others: Vec<_> = both().filter(|(track, _)| !patch.keeps(track)).collect();
+        if !others.is_empty() {
+            panels.push(forces(&others));
+        }
     }
     let left_out = patch.tracks.len().saturating_sub(DRAWN);
     let mut caption = match patch.field {
