@@ -38,3 +38,6 @@ pub const TABLES: &[&str] =
 
 /// Ends of the names of figures beside the one that is called like its case.
 pub const SUFFIXES: &[&str] = &[];
+
+#[cfg(test)]
+mod at_rest_tests;
