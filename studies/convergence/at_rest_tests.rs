@@ -177,7 +177,12 @@ fn free_edges_cost_an_order_and_their_corners_a_logarithm() {
         "order_l2_volume",
     ];
     passes(SURFACE, &all);
-    loses(SURFACE, &Faulty(|scene| scene.material.youngs_modulus *= 0.9, as_it_is), &all);
+    let soft: fn(&mut Scene<2>) = |scene| scene.material.youngs_modulus *= 0.9;
+    loses(SURFACE, &Faulty(soft, as_it_is), &all);
+    let mirrored = format!("top = \"mirror\"\n{}", SURFACE.replace(r#", "energy", "volume""#, ""));
+    let orders = ["order_l1_none", "order_l2_none", "order_linf_none"];
+    passes(&mirrored, &orders);
+    loses(&mirrored, &Faulty(soft, as_it_is), &orders);
 }
 
 #[test]

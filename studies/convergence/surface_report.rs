@@ -1,6 +1,6 @@
 //! Rows and figure of the surface effect: errors over δ and their coefficients, by which corrections are compared.
 
-use super::surface::{Pulled, Surface, Track, called};
+use super::surface::{Pulled, Surface, Top, Track, called};
 use crate::bar::names::{LATTICE, lattice_cells};
 use crate::dispersion::sweep::distinct;
 use crate::levels;
@@ -49,10 +49,15 @@ pub fn tables(surface: &Surface, pulled: &[Vec<Pulled>], place: &Place) -> Vec<T
 /// For each of the first lattices: the error in L2 over δ, and the largest error over δ/L against L/δ.
 pub fn figure(surface: &Surface, pulled: &[Vec<Pulled>], place: &Place) -> Figure {
     let lattices = distinct(surface.tracks.iter().map(|track| track.name.clone()));
-    let mut caption = format!(
-        "A plate pulled at a free edge beside a free edge, at rest. Left: order 1. Right: the largest error over δ/L grows with ln(L/δ), straight here: a point force at the corner. {}",
-        best(surface, pulled)
-    );
+    let seen = match surface.top {
+        Top::Free => {
+            "A plate pulled at a free edge beside a free edge, at rest: order 1. The largest error over δ/L grows with ln(L/δ), straight lines here: a point force at the corner."
+        }
+        Top::Mirror => {
+            "A plate pulled at a free edge between mirrors, at rest. The error, of order δ, is confined to within δ of the edge: order 3/2 in L2; the largest error over δ/L does not change."
+        }
+    };
+    let mut caption = format!("{seen} {}", best(surface, pulled));
     if lattices.len() > DRAWN {
         caption += &format!(" {} more lattices are in surface_effect.csv.", lattices.len() - DRAWN);
     }
@@ -63,7 +68,11 @@ pub fn figure(surface: &Surface, pulled: &[Vec<Pulled>], place: &Place) -> Figur
         let by_horizon = mine().map(|(track, pulled)| {
             look(Series::both(called(track.correction), track.refinement(pulled).in_norm(1)), track)
         });
-        let order = Guide::Slope { order: 1.0, label: "order 1".into() };
+        let (order, label) = match surface.top {
+            Top::Free => (1.0, "order 1"),
+            Top::Mirror => (1.5, "order 3/2"),
+        };
+        let order = Guide::Slope { order, label: label.into() };
         let axes = (Axis::log("δ (m)"), Axis::log("error in L2"));
         figure =
             figure.panel(Lines::new(axes.0, axes.1, by_horizon.collect()).titled(name.clone()).guide(order));
