@@ -97,11 +97,15 @@ fn look(series: Series, track: &Track) -> Series {
     }
 }
 
-/// Which correction leaves the smallest error in L2 of each lattice at the finest level.
+/// Which correction leaves the smallest error of each lattice at the finest level, in the norm that tells: of order 1.
 fn best(surface: &Surface, pulled: &[Vec<Pulled>]) -> String {
+    let (norm, error) = match surface.top {
+        Top::Free => (1, "Error in L2"),
+        Top::Mirror => (2, "Largest error"),
+    };
     let coefficient = |track: &Track, pulled: &[Pulled]| {
         let horizon = track.sequence.step(track.sequence.finest());
-        pulled.last().map_or(f64::NAN, |one| one.errors[1] * surface.side / horizon)
+        pulled.last().map_or(f64::NAN, |one| one.errors[norm] * surface.side / horizon)
     };
     let lattices = distinct(surface.tracks.iter().map(|track| track.name.clone()));
     let said = lattices.iter().map(|name| {
@@ -113,5 +117,5 @@ fn best(surface: &Surface, pulled: &[Vec<Pulled>]) -> String {
         let listed: Vec<String> = ranked.iter().map(|(name, c)| format!("{name} {c:.3}")).collect();
         format!("{name}: {}", listed.join(", "))
     });
-    format!("Error in L2 times L/δ at the finest level: {}.", said.collect::<Vec<_>>().join("; "))
+    format!("{error} times L/δ at the finest level: {}.", said.collect::<Vec<_>>().join("; "))
 }
