@@ -19,6 +19,7 @@ pub const SHIPPED: &[(&str, &str)] = &[
     ("studies/convergence/pulses.toml", include_str!("convergence/pulses.toml")),
     ("studies/convergence/rest.toml", include_str!("convergence/rest.toml")),
     ("studies/convergence/rules.toml", include_str!("convergence/rules.toml")),
+    ("studies/convergence/plates.toml", include_str!("convergence/plates.toml")),
 ];
 
 /// All shipped studies of a kind (or all), with `--set` changes; a setting that no study has a place for is refused.

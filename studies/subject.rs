@@ -9,6 +9,7 @@ use pd_verify::dispersion::joint::{self, Chain};
 use pd_verify::dispersion::plane::PlaneDispersion;
 use pd_verify::dispersion::timestep::{self, TimeStep};
 use pd_verify::dispersion::{Branch, Wave, continuum, finite_differences, leapfrog};
+use pd_verify::forces::{Class, Now};
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::{Lattice, Stencil, Unusable};
 use pd_verify::material::Body;
@@ -131,6 +132,11 @@ pub trait Subject: Sync {
         rest(scene)
     }
 
+    /// Force density in N/m³ of the bonds alone on a plate's nodes at the displacement of t = 0, row by row.
+    fn bond_force_plate(&self, scene: &Scene<2>) -> Result<Vec<[f64; 2]>, String> {
+        bond_force(scene)
+    }
+
     /// The published Fourier series of a released bar's displacement.
     fn released_series(&self, bar: &ReleasedBar, x: f64, t: f64, terms: usize) -> f64 {
         bar.fourier_displacement(x, t, terms)
@@ -147,11 +153,33 @@ fn rest<const D: usize>(scene: &Scene<D>) -> Result<Vec<[f64; D]>, String> {
     let model = Model::new(scene).map_err(|wrong| wrong.message)?;
     let most = 100 * scene.nodes.iter().sum::<usize>().max(1000);
     let rest = statics::rest(&model, 1e-14, most).map_err(|none| none.to_string())?;
+    Ok(nodes(&model, &rest.displacement))
+}
+
+/// Force density of the bonds at the displacement of t = 0.
+fn bond_force<const D: usize>(scene: &Scene<D>) -> Result<Vec<[f64; D]>, String> {
+    let model = Model::new(scene).map_err(|wrong| wrong.message)?;
+    let mut displacement = model.grid.field();
+    for field in &scene.displacement {
+        for node in model.grid.each() {
+            let place = model.grid.place(node) + field.component * model.grid.stride();
+            displacement[place] += field.at(model.grid.position(node));
+        }
+    }
+    model.fill_ghosts(&mut displacement);
+    let now = Now { displacement: &displacement, increment: &[], time: 0.0, time_step: f64::NAN };
+    let mut force = model.grid.field();
+    model.add_forces(model.of_class(Class::Internal), &now, &mut force);
+    Ok(nodes(&model, &force))
+}
+
+/// A field of a model at its nodes, row by row.
+fn nodes<const D: usize>(model: &Model<D>, field: &[f64]) -> Vec<[f64; D]> {
     let at = |node| {
         let place = model.grid.place(node);
-        std::array::from_fn(|axis| rest.displacement[place + axis * model.grid.stride()])
+        std::array::from_fn(|axis| field[place + axis * model.grid.stride()])
     };
-    Ok(model.grid.each().map(at).collect())
+    model.grid.each().map(at).collect()
 }
 
 /// This library as it is.

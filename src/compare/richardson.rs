@@ -33,7 +33,7 @@ pub enum NoOrder {
     NoChange,
     /// The values swing about something: no power of h does that.
     Oscillating,
-    /// The order would be beyond ±[`LARGEST_ORDER`].
+    /// The order would be beyond ±20.
     OutOfRange,
 }
 
@@ -49,7 +49,7 @@ impl NoOrder {
     }
 }
 
-/// Orders beyond are no orders of a scheme.
+/// No scheme has an order beyond it.
 const LARGEST_ORDER: f64 = 20.0;
 
 /// Extrapolates f from grids (h, f), from fine to coarse.

@@ -8,7 +8,7 @@ use pd_verify::kernel::Kernel;
 use pd_verify::lattice::{Lattice, Stencil, Unusable};
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::record::{Failure, Record};
-use pd_verify::scene::{Axis, HistoryAsked, Initial, Scene, Shape, StepRule};
+use pd_verify::scene::{Axis, HistoryAsked, Initial, Operator, Scene, Shape, StepRule};
 use std::sync::Arc;
 
 /// All of them, by name.
@@ -29,6 +29,10 @@ pub fn all() -> Vec<(&'static str, Box<dyn Subject + Send>)> {
         ("the start is bent by a millionth", scene(bent, bent)),
         ("a body force that nobody asked for", scene(heavy, heavy)),
         ("mirrors are of the other parity", scene(other_mirrors, other_mirrors)),
+        ("fine grids are a tenth softer", scene(|_| (), soft_when_fine)),
+        ("a list of bonds is a hundredth softer", scene(|_| (), soft_list)),
+        ("a cubic term in what is given", scene(|_| (), cubic)),
+        ("every node shows its neighbour's displacement", Box::new(OneAside)),
         ("x and y are seen exchanged", Box::new(Exchanged)),
         ("waves are summed with weights a hundredth off", weights(|_| {}, 1.01)),
         (
@@ -65,6 +69,10 @@ impl Subject for OtherScene {
 
     fn rest_plate(&self, scene: &Scene<2>) -> Result<Vec<[f64; 2]>, String> {
         PdVerify.rest_plate(&changed(scene, self.plate))
+    }
+
+    fn bond_force_plate(&self, scene: &Scene<2>) -> Result<Vec<[f64; 2]>, String> {
+        PdVerify.bond_force_plate(&changed(scene, self.plate))
     }
 }
 
@@ -126,6 +134,38 @@ fn other_mirrors<const D: usize>(scene: &mut Scene<D>) {
         if *edge == Edge::MirrorOdd {
             *edge = Edge::MirrorEven;
         }
+    }
+}
+
+fn soft_when_fine(scene: &mut Scene<2>) {
+    if scene.nodes[0] > 128 {
+        soft(scene);
+    }
+}
+
+fn soft_list(scene: &mut Scene<2>) {
+    if scene.operator == Operator::Bonds {
+        scene.material.youngs_modulus *= 0.99;
+    }
+}
+
+/// No lattice is without force in it.
+fn cubic(scene: &mut Scene<2>) {
+    if let Some(Shape::Monomial { about, .. }) =
+        scene.displacement.first().map(|initial| initial.shape.clone())
+    {
+        let shape = Shape::Monomial { about, powers: [3, 0] };
+        scene.displacement.push(Initial { component: 0, amplitude: 1e-9, shape });
+    }
+}
+
+/// Sees each node of a plate where its right neighbour is.
+struct OneAside;
+
+impl Subject for OneAside {
+    fn rest_plate(&self, scene: &Scene<2>) -> Result<Vec<[f64; 2]>, String> {
+        let (seen, columns) = (PdVerify.rest_plate(scene)?, scene.nodes[0]);
+        Ok((0..seen.len()).map(|n| seen[if (n + 1) % columns == 0 { n } else { n + 1 }]).collect())
     }
 }
 
