@@ -78,7 +78,7 @@ impl Framed {
             ..bare.clone()
         };
         let scenes: Vec<Scene<2>> = field.all(side, middle).into_iter().map(of).collect();
-        let plan = Plan::of(&bare)?;
+        let plan = Plan::at_rest(&bare)?;
         Ok(Framed { scenes, plan, held })
     }
 

@@ -4,9 +4,10 @@
 use super::grids_report as report;
 use super::grids_said::{band, change, known, order};
 use super::path::{PathAsked, Refine, Sequence, WeightsAsked};
+use super::space::{In, Space};
+use super::whole;
 use crate::bar::names;
 use crate::bar::pulsed::material;
-use crate::dispersion::curve::reference_lattice;
 use crate::dispersion::sweep::distinct;
 use crate::dispersion::words::BodyName;
 use crate::input::{OneOrMany, one_or_many};
@@ -26,7 +27,6 @@ use pd_verify::scene::{
     Axis, Effect, HistoryAsked, Notch, Operator, Positive, Scene, Side, StepRule, Time, Wrong,
 };
 use pd_verify::verdict::Evidence;
-use pd_verify_reference::lattice::plane_moduli;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -87,8 +87,6 @@ pub struct Followed {
 
 /// σ/C₁₁; the body is linear, so that it is of no account.
 const LOAD: f64 = 1e-6;
-/// Long-wave moduli this close to the intended ones are the intended ones.
-const RIGHT: f64 = 1e-12;
 /// Grids that it takes to predict one more.
 const GRIDS: usize = 4;
 
@@ -156,8 +154,7 @@ impl Asked for GridsAsked {
                     "give four grids or more, five to see orders agree",
                 ));
             }
-            let moduli = plane_moduli(reference_lattice(sequence.lattice(sequence.finest())));
-            if [moduli.c11, moduli.c12].iter().any(|of| (of - 1.0).abs() > RIGHT) {
+            if !<In as Space<2>>::intended(sequence.lattice(sequence.finest())) {
                 let message = format!("{name}: its moduli are not the intended ones");
                 return Err(Wrong::new("weights.calibrated", message, "take calibrated = true"));
             }
@@ -222,7 +219,7 @@ impl GridsAsked {
             effects: vec![pull(Side::Top, 1.0), pull(Side::Bottom, -1.0)],
             ..bare
         };
-        let plan = Plan::of(&scene)?;
+        let plan = Plan::at_rest(&scene)?;
         Ok((scene, plan))
     }
 }
@@ -336,16 +333,8 @@ impl Question for Grids {
 
     fn effort(&self) -> Effort {
         let mut total = Effort::default();
-        for (scene, plan) in self.tracks.iter().flat_map(|track| &track.levels) {
-            // About six iterations for each node of a side.
-            let times = 6 * scene.nodes[0] as u64;
-            total += Effort {
-                curves: 1,
-                node_updates: plan.nodes * times,
-                bond_evaluations: plan.bonds * times,
-                ..Effort::default()
-            };
-        }
+        let levels = self.tracks.iter().flat_map(|track| &track.levels);
+        levels.for_each(|(scene, plan)| total += whole::resting(plan, scene.nodes[0]));
         total
     }
 

@@ -4,6 +4,8 @@
 use super::framed::{Field, Framed, STRAIN};
 use super::patch_report as report;
 use super::path::{Level, PathAsked, Refine, Sequence, WeightsAsked};
+use super::space::{In, Space};
+use super::whole;
 use crate::bar::names;
 use crate::bar::pulsed::material;
 use crate::dispersion::curve::reference_lattice;
@@ -68,9 +70,6 @@ pub struct Kept {
     pub force_far: f64,
 }
 
-/// Long-wave moduli this close to the intended ones are the intended ones.
-const RIGHT: f64 = 1e-12;
-
 impl Asked for PatchAsked {
     type Question = Patch;
 
@@ -114,8 +113,7 @@ impl Asked for PatchAsked {
 impl Track {
     /// Whether every level has the intended moduli.
     pub fn right(&self) -> bool {
-        let near = |value: f64| (value - 1.0).abs() < RIGHT;
-        self.moduli.iter().all(|of| near(of.c11) && near(of.c12) && near(of.c66))
+        self.sequence.levels.iter().all(|level| <In as Space<2>>::intended(self.sequence.lattice(*level)))
     }
 }
 
@@ -262,14 +260,7 @@ impl Question for Patch {
     fn effort(&self) -> Effort {
         let mut total = Effort::default();
         for level in self.tracks.iter().flat_map(|track| &track.levels) {
-            // About six iterations for each node of a side.
-            let times = level.scenes.len() as u64 * (6 * level.nodes()[0] as u64 + 1);
-            total += Effort {
-                curves: level.scenes.len() as u64,
-                node_updates: level.plan.nodes * times,
-                bond_evaluations: level.plan.bonds * times,
-                ..Effort::default()
-            };
+            level.scenes.iter().for_each(|_| total += whole::resting(&level.plan, level.nodes()[0]));
         }
         total
     }

@@ -1,7 +1,7 @@
 //! A problem solved level by level: errors in three norms, the order at which they fall, the plateau that wrong moduli
 //! leave, and the lattice's own answer. Every question of this kind that has an exact answer is asked here.
 
-use super::path::{Level, Refine, Sequence};
+use super::path::{Refine, Sequence};
 use super::refined_report as report;
 use super::space::{In, Space};
 use super::theory::{self, Expected};
@@ -121,7 +121,7 @@ where
                     .map_err(|unusable| Wrong::new("path.m", unusable.to_string(), unusable.cure()))?;
             }
             let levels = ready(&problem, &sequence)?;
-            let right_moduli = sequence.levels.iter().all(|level| has_right_moduli(&sequence, *level));
+            let right_moduli = sequence.levels.iter().all(|level| In::intended(sequence.lattice(*level)));
             let name = if sequence.refine == Refine::Delta { name } else { without_m(&name) };
             let track = Track { name, sequence, levels, right_moduli };
             if track.stops() && !problem.predicts_plateaus() {
@@ -174,22 +174,6 @@ fn without_m(name: &str) -> String {
 
 /// Index of L2 in [`NORMS`].
 const L2: usize = 1;
-
-/// Long-wave moduli this close to the intended ones are the intended ones.
-const RIGHT: f64 = 1e-12;
-
-fn has_right_moduli<const D: usize>(sequence: &Sequence, level: Level) -> bool
-where
-    In: Space<D>,
-{
-    match In::moduli(sequence.lattice(level)) {
-        Medium::Moduli(moduli) => {
-            let shear = if D == 1 { 1.0 } else { moduli.c12 };
-            (moduli.c11 - 1.0).abs() < RIGHT && (shear - 1.0).abs() < RIGHT
-        }
-        _ => false,
-    }
-}
 
 impl<L> Track<L> {
     /// Refined at fixed m with other moduli than intended: it stops converging.

@@ -71,8 +71,6 @@ pub struct Rested<const D: usize> {
 const HEIGHT: f64 = 1e-6;
 /// Added to the phase in a held frame, so that the displacement vanishes at no edge.
 const TURN: f64 = 0.7;
-/// Node updates that one iteration of conjugate gradients is like.
-const ITERATIONS: u64 = 100;
 
 impl Asked for ManufacturedAsked {
     type Question = Box<dyn Question>;
@@ -231,13 +229,9 @@ on the lattice between mirrors: u = M_lattice⁻¹ M a cos(k·x + φ)"
     }
 
     fn effort(&self, level: &Rested<D>) -> Effort {
-        Effort {
-            curves: 1,
-            node_updates: level.plan.nodes * ITERATIONS,
-            bond_evaluations: level.plan.bonds * ITERATIONS,
-            reference_evaluations: level.plan.nodes / 100,
-            ..Effort::default()
-        }
+        // Between mirrors the load is made of a few waves, and each iteration is rid of one.
+        let side = if self.around == Around::Mirrors { 2 } else { level.scene.nodes[0] };
+        whole::resting(&level.plan, side)
     }
 
     fn solve(&self, subject: &dyn Subject, level: &Rested<D>, medium: &Medium) -> Result<Solved, String> {

@@ -23,6 +23,9 @@ pub enum Carried {
     Steps(u64, f64),
 }
 
+/// Long-wave moduli this close to the intended ones are the intended ones.
+const RIGHT: f64 = 1e-12;
+
 /// Bodies of D dimensions.
 pub trait Space<const D: usize> {
     fn march(subject: &dyn Subject, scene: &Scene<D>) -> Result<Record, Failure>;
@@ -32,6 +35,13 @@ pub trait Space<const D: usize> {
 
     /// Local elasticity with the long-wave moduli of a lattice.
     fn moduli(lattice: Lattice) -> Medium;
+
+    /// Whether a lattice has the long-wave moduli that it is meant to have.
+    fn intended(lattice: Lattice) -> bool {
+        let Medium::Moduli(moduli) = Self::moduli(lattice) else { return false };
+        let shear = if D == 1 { 1.0 } else { moduli.c12 };
+        (moduli.c11 - 1.0).abs() < RIGHT && (shear - 1.0).abs() < RIGHT
+    }
 
     /// M a of the wave k in a medium, in 1/m²; the body force is C₁₁ M a.
     fn stiffness(medium: &Medium, k: [f64; D], a: [f64; D]) -> Option<[f64; D]>;

@@ -2,11 +2,11 @@
 //! bonds missing within δ of an edge change the error by a share of order δ/L, and a corner of two free edges adds a logarithm.
 
 use super::path::{Level, PathAsked, Refine, Sequence, WeightsAsked};
+use super::space::{In, Space};
 use super::surface_report as report;
 use super::whole;
 use crate::bar::names;
 use crate::bar::pulsed::material;
-use crate::dispersion::curve::reference_lattice;
 use crate::dispersion::sweep::distinct;
 use crate::dispersion::words::BodyName;
 use crate::input::{OneOrMany, one_or_many};
@@ -23,7 +23,6 @@ use pd_verify::material::Body;
 use pd_verify::plan::Plan;
 use pd_verify::scene::{Axis, HistoryAsked, Positive, Scene, Side, StepRule, Time, Wrong};
 use pd_verify::verdict::Evidence;
-use pd_verify_reference::lattice::plane_moduli;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -84,8 +83,6 @@ pub struct Pulled {
 
 /// σ/C₁₁; the body is linear, so that it is of no account.
 const LOAD: f64 = 1e-6;
-/// Long-wave moduli this close to the intended ones are the intended ones.
-const RIGHT: f64 = 1e-12;
 /// Errors below may be what conjugate gradients lose.
 const FLOOR: f64 = 1e-9;
 
@@ -114,8 +111,7 @@ impl Asked for SurfaceAsked {
         let above = if top == Top::Free { Edge::Free } else { Edge::MirrorOdd };
         let mut tracks = Vec::new();
         for (sequence, name) in sequences.iter().zip(names::names(&finest)) {
-            let moduli = plane_moduli(reference_lattice(sequence.lattice(sequence.finest())));
-            if [moduli.c11, moduli.c12].iter().any(|of| (of - 1.0).abs() > RIGHT) {
+            if !<In as Space<2>>::intended(sequence.lattice(sequence.finest())) {
                 let message =
                     format!("{name}: its moduli are not the intended ones, so that its error does not fall");
                 return Err(Wrong::new("weights.calibrated", message, "take calibrated = true"));
@@ -141,7 +137,7 @@ impl Asked for SurfaceAsked {
                         effects: vec![Arc::new(pull)],
                         ..bare
                     };
-                    let plan = Plan::of(&scene)?;
+                    let plan = Plan::at_rest(&scene)?;
                     Ok((scene, plan))
                 };
                 let levels = sequence.levels.iter().map(ready).collect::<Result<_, Wrong>>()?;
@@ -332,16 +328,8 @@ impl Question for Surface {
 
     fn effort(&self) -> Effort {
         let mut total = Effort::default();
-        for (scene, plan) in self.tracks.iter().flat_map(|track| &track.levels) {
-            // About six iterations for each node of a side.
-            let times = 6 * scene.nodes[0] as u64;
-            total += Effort {
-                curves: 1,
-                node_updates: plan.nodes * times,
-                bond_evaluations: plan.bonds * times,
-                ..Effort::default()
-            };
-        }
+        let levels = self.tracks.iter().flat_map(|track| &track.levels);
+        levels.for_each(|(scene, plan)| total += whole::resting(plan, scene.nodes[0]));
         total
     }
 

@@ -2,6 +2,7 @@
 
 use super::path::{Level, Sequence};
 use crate::dispersion::curve::reference_lattice;
+use crate::question::Effort;
 use pd_verify::plan::Plan;
 use pd_verify::record::Record;
 use pd_verify::scene::{Scene, StepRule, Wrong};
@@ -50,6 +51,18 @@ pub fn stepped<const D: usize>(
         Ok((made, plan))
     };
     sequence.levels.iter().map(level).collect()
+}
+
+/// The work of finding a body at rest: some six iterations of conjugate gradients for each node of a side.
+pub fn resting(plan: &Plan, side: usize) -> Effort {
+    let times = 6 * side as u64;
+    Effort {
+        curves: 1,
+        node_updates: plan.nodes * times,
+        bond_evaluations: plan.bonds * times,
+        reference_evaluations: plan.nodes / 100,
+        ..Effort::default()
+    }
 }
 
 /// The lattice of a scene as a medium.
