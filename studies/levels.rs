@@ -67,8 +67,11 @@ pub fn order_of(name: &str, levels: &[(f64, f64)], expected: f64, floor: f64) ->
     }
 }
 
-/// The observed order of the finest levels whose pairwise orders agree; inconclusive where fewer than three do.
-pub fn tail_order(name: &str, levels: &[(f64, f64)], expected: f64, floor: f64) -> Evidence {
+/// The observed order of the finest levels whose pairwise orders agree, to be within `within` of the expected one.
+///
+/// Where fewer than three agree it is inconclusive, unless the orders move away from the expected one: then the finest
+/// pair is judged, for that is no coarse level's fault.
+pub fn tail_order(name: &str, levels: &[(f64, f64)], expected: f64, within: f64, floor: f64) -> Evidence {
     let tail = order::tail(levels, floor);
     let mut note = format!("{name}: the {} finest levels", tail.levels.len());
     if tail.too_coarse > 0 {
@@ -77,27 +80,46 @@ pub fn tail_order(name: &str, levels: &[(f64, f64)], expected: f64, floor: f64) 
     if tail.at_floor > 0 {
         note += &format!(", {} at the round-off floor of {floor:e} left out", tail.at_floor);
     }
-    let broken = levels.iter().any(|level| !level.1.is_finite());
-    let pairs = levels.windows(2).map(|pair| order::pairwise(pair[0], pair[1]).unwrap_or(f64::NAN));
-    let outside = (tail.order.is_none() && !broken).then(|| {
-        let listed: Vec<String> = pairs.map(|order| format!("{order:.2}")).collect();
-        format!("outside the asymptotic range: pairwise orders {}", listed.join(", "))
-    });
-    Evidence {
-        computed: tail.order.map(|order| order.value),
+    let found = |value: f64| Evidence {
+        computed: Some(value),
         reference: Some(expected),
-        error: tail.order.map(|order| (order.value - expected).abs()),
+        error: Some((value - expected).abs()),
         order: tail.order,
-        outside,
-        note,
+        note: note.clone(),
         ..Evidence::default()
+    };
+    if let Some(order) = tail.order {
+        return found(order.value);
     }
+    if levels.iter().any(|level| !level.1.is_finite()) {
+        return Evidence { note: format!("{name}: a level is not finite"), ..Evidence::default() };
+    }
+    let resolved: Vec<_> = levels.iter().copied().filter(|level| level.1 > floor).collect();
+    let orders: Vec<f64> = resolved.windows(2).filter_map(|pair| order::pairwise(pair[0], pair[1])).collect();
+    let listed = orders.iter().map(|order| format!("{order:.2}")).collect::<Vec<_>>().join(", ");
+    if let [.., before, last] = orders[..]
+        && (last - expected).abs() > within
+        && (last - expected).abs() > (before - expected).abs()
+    {
+        let note = format!("{name}: by the finest pair, as orders move away from {expected}: {listed}");
+        return Evidence { note, ..found(last) };
+    }
+    let outside = Some(format!("outside the asymptotic range: pairwise orders {listed}"));
+    Evidence { reference: Some(expected), outside, note, ..Evidence::default() }
 }
 
-/// The evidence that is furthest from what is expected; one without a number is further than any.
-pub fn furthest(all: impl IntoIterator<Item = Evidence>) -> Option<Evidence> {
-    let far = |evidence: &Evidence| evidence.error.filter(|error| !error.is_nan()).unwrap_or(f64::INFINITY);
-    all.into_iter().max_by(|a, b| far(a).total_cmp(&far(b)))
+/// The evidence to be judged of several, when `bound` is what an error may be: one beyond it before one without a number,
+/// and this before one within; among alike the largest error.
+pub fn furthest(all: impl IntoIterator<Item = Evidence>, bound: f64) -> Option<Evidence> {
+    let rank = |evidence: &Evidence| match evidence.error.filter(|error| !error.is_nan()) {
+        _ if evidence.outside.is_some() || evidence.failed.is_some() => (1, 0.0),
+        None => (1, 0.0),
+        Some(error) => (if error > bound { 2 } else { 0 }, error),
+    };
+    all.into_iter().max_by(|a, b| {
+        let (a, b) = (rank(a), rank(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    })
 }
 
 /// A table of errors by sequence and level.
@@ -187,9 +209,28 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_order_is_the_furthest() {
-        let none = order_of("x", &[(1.0, f64::NAN), (0.5, 1.0), (0.25, 0.5)], 1.0, 0.0);
-        let one = order_of("y", &[(1.0, 4.0), (0.5, 2.0), (0.25, 1.0)], 1.0, 0.0);
-        assert_eq!(furthest([none, one]).unwrap().computed, None);
+    fn a_failure_is_told_before_a_missing_order_and_this_before_what_is_right() {
+        let none = || order_of("x", &[(1.0, f64::NAN), (0.5, 1.0), (0.25, 0.5)], 1.0, 0.0);
+        let one = || order_of("y", &[(1.0, 4.0), (0.5, 2.0), (0.25, 1.0)], 1.0, 0.0);
+        let wrong = order_of("z", &[(1.0, 4.0), (0.5, 1.0), (0.25, 0.25)], 1.0, 0.0);
+        assert_eq!(furthest([none(), one()], 0.1).unwrap().computed, None);
+        assert!((furthest([none(), wrong, one()], 0.1).unwrap().computed.unwrap() - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn orders_that_move_away_are_judged_and_those_on_their_way_are_not() {
+        let of = |error: fn(f64) -> f64| {
+            let levels: Vec<(f64, f64)> = [0.8, 0.4, 0.2, 0.1, 0.05].map(|h| (h, error(h))).to_vec();
+            tail_order("x", &levels, 2.0, 0.1, 1e-12)
+        };
+        // A residue that does not vanish, and an error of the first order under one of the second.
+        for stopping in [of(|h| 0.5 * h * h + 3e-4), of(|h| 0.5 * h * h + 0.02 * h)] {
+            assert!(stopping.error.unwrap() > 0.1 && stopping.outside.is_none(), "{stopping:?}");
+        }
+        let coarse = of(|h| h * h / (1.0 + 300.0 * h * h));
+        assert!(coarse.computed.is_none() && coarse.outside.is_some(), "{coarse:?}");
+        let broken =
+            tail_order("x", &[(8.0, f64::NAN), (4.0, 0.16), (2.0, 0.04), (1.0, 0.01)], 2.0, 0.1, 0.0);
+        assert!(broken.computed.is_none() && broken.error.is_none());
     }
 }

@@ -48,10 +48,10 @@ pub struct Tail {
 pub const AGREEMENT: f64 = 0.1;
 
 /// The finest levels above a floor whose pairwise orders lie within [`AGREEMENT`] of the finest pair's. A level that is
-/// not finite ends the tail.
+/// not finite leaves no order at all: what broke down is not coarse.
 pub fn tail(levels: &[(f64, f64)], floor: f64) -> Tail {
-    let resolved: Vec<(f64, f64)> =
-        levels.iter().copied().filter(|level| level.1.is_nan() || level.1 > floor).collect();
+    let sound = levels.iter().all(|level| level.1.is_finite());
+    let resolved: Vec<(f64, f64)> = levels.iter().copied().filter(|level| level.1 > floor).collect();
     let orders: Vec<Option<f64>> = resolved.windows(2).map(|pair| pairwise(pair[0], pair[1])).collect();
     let finest = orders.last().copied().flatten();
     let agrees = |order: &Option<f64>| order.zip(finest).is_some_and(|(a, b)| (a - b).abs() <= AGREEMENT);
@@ -59,9 +59,9 @@ pub fn tail(levels: &[(f64, f64)], floor: f64) -> Tail {
     let used = if agreeing == 0 { 0 } else { agreeing + 1 };
     let tail = resolved[resolved.len() - used..].to_vec();
     Tail {
-        at_floor: levels.len() - resolved.len(),
+        at_floor: levels.iter().filter(|level| level.1 <= floor).count(),
         too_coarse: resolved.len() - used,
-        order: if used >= 3 { fitted(&tail) } else { None },
+        order: if used >= 3 && sound { fitted(&tail) } else { None },
         levels: tail,
     }
 }
@@ -114,7 +114,10 @@ mod tests {
     fn a_tail_of_orders_that_disagree_is_none() {
         let ragged = [(8.0, 1.0), (4.0, 0.3), (2.0, 0.2), (1.0, 0.02), (0.5, 0.019)];
         assert_eq!(tail(&ragged, 0.0).order, None);
-        assert_eq!(tail(&[(4.0, 1.0), (2.0, f64::NAN), (1.0, 0.1)], 0.0).order, None);
+        for broken in [f64::NAN, f64::INFINITY] {
+            let levels = [(8.0, broken), (4.0, 0.16), (2.0, 0.04), (1.0, 0.01)];
+            assert_eq!(tail(&levels, 0.0).order, None);
+        }
         assert_eq!(tail(&[], 0.0).order, None);
         // A wrong order is an order: it is not hidden as inconclusive.
         let first = [(8.0, 0.8), (4.0, 0.4), (2.0, 0.2), (1.0, 0.1)];

@@ -272,12 +272,12 @@ impl Pulse {
         let norms = 0..levels::NORMS.len();
         let in_time =
             seen.iter().flat_map(|seen| norms.clone().map(|norm| seen.by_time_step.order(norm, 2.0, FLOOR)));
-        evidence.extend(furthest(in_time).map(|found| ("time_order".into(), found)));
+        evidence.extend(furthest(in_time, 0.05).map(|found| ("time_order".into(), found)));
         let both = || self.refinements.iter().zip(seen);
         for (norm, name) in levels::NORMS.iter().enumerate() {
             let converging = both().filter(|(one, _)| one.converges());
             let orders = converging.map(|(_, seen)| seen.by_spacing.order(norm, 2.0, FLOOR));
-            evidence.extend(furthest(orders).map(|found| (format!("order_{name}"), found)));
+            evidence.extend(furthest(orders, 0.1).map(|found| (format!("order_{name}"), found)));
         }
         let plateaus = both().filter(|(one, _)| !one.converges()).flat_map(|(one, seen)| {
             let reached = seen.by_spacing.levels[seen.by_spacing.levels.len() - 1].1;
@@ -287,7 +287,7 @@ impl Pulse {
                 error_of(Some(share), format!("{}: {:.4} in {name}", one.name, reached[norm]))
             })
         });
-        evidence.extend(furthest(plateaus).map(|found| ("plateau".into(), found)));
+        evidence.extend(furthest(plateaus, 0.05).map(|found| ("plateau".into(), found)));
         evidence
     }
 }

@@ -362,7 +362,7 @@ impl Statics {
                 let levels = self.softnesses(rested, bulk, correction);
                 order_of(&self.lattices[bulk].name, &levels, 1.0, FLOOR)
             });
-            evidence.extend(furthest(orders).map(|found| (format!("surface_order_{name}"), found)));
+            evidence.extend(furthest(orders, 1e-6).map(|found| (format!("surface_order_{name}"), found)));
         }
         evidence
     }

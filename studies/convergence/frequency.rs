@@ -88,6 +88,11 @@ impl Asked for FrequencyAsked {
             (Body::Bar, Some(_)) => {
                 Err(Wrong::new("direction", "direction says nothing about a bar", "leave it out"))
             }
+            (_, Some(none)) if none.is_empty() => Err(Wrong::new(
+                "direction",
+                "no direction is given",
+                "for example direction = [[1, 0], [1, 1]]",
+            )),
             (_, None) => Err(Wrong::new("", "a plate needs direction", "add direction = [[1, 0], [1, 1]]")),
             (_, Some(directions)) => {
                 let mut along = Vec::new();

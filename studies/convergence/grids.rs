@@ -142,7 +142,7 @@ impl Asked for GridsAsked {
         let (material, title) = (material(written)?, written.title.to_owned());
         let corrections =
             distinct(self.correction.clone().unwrap_or_else(|| one_or_many(Correction::None)).0);
-        let sequences = self.path.sequences(&self.weights)?;
+        let sequences = self.path.sequences(body, &self.weights)?;
         let finest: Vec<_> = sequences.iter().map(|one| one.lattice(one.finest())).collect();
         let mut tracks = Vec::new();
         for (sequence, name) in sequences.iter().zip(names::names(&finest)) {
@@ -266,15 +266,15 @@ impl Grids {
                 both.map(move |(track, one)| (track, one.values[index].as_slice()))
             };
             let word = quantity.word();
-            let mut add = |name: &str, all: Vec<Evidence>| {
-                evidence.extend(furthest(all).map(|found| (format!("{name}_{word}"), found)));
+            let mut add = |name: &str, bound: f64, all: Vec<Evidence>| {
+                evidence.extend(furthest(all, bound).map(|found| (format!("{name}_{word}"), found)));
             };
-            add("band", each().map(|(track, values)| band(&track.name, values)).collect());
-            add("change", each().map(|(track, values)| change(&track.name, values)).collect());
+            add("band", 1.0, each().map(|(track, values)| band(&track.name, values)).collect());
+            add("change", 0.1, each().map(|(track, values)| change(&track.name, values)).collect());
             let plain = each().filter(|(track, _)| self.notched() && track.correction == Correction::None);
-            add("order", plain.map(|(track, values)| order(&track.name, values)).collect());
+            add("order", 0.1, plain.map(|(track, values)| order(&track.name, values)).collect());
             if let (false, Some(exact)) = (self.notched(), quantity.exact()) {
-                add("exact", each().map(|(track, values)| known(&track.name, values, exact)).collect());
+                add("exact", 1.0, each().map(|(track, values)| known(&track.name, values, exact)).collect());
             }
         }
         evidence

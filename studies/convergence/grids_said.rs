@@ -12,6 +12,22 @@ pub fn extrapolated(values: &[(f64, f64)], before: usize) -> Result<Extrapolatio
     }
 }
 
+/// Values that change by a smaller power of Δx than this go nowhere.
+const LEAST_ORDER: f64 = 0.1;
+
+/// What three grids tell, or the evidence that they tell nothing; grids that diverge fail.
+fn told(name: &str, values: &[(f64, f64)], before: usize) -> Result<Extrapolation, Evidence> {
+    match extrapolated(values, before) {
+        Err(none) => Err(untold(name, none, values)),
+        Ok(found) if found.order < LEAST_ORDER => {
+            let note = format!("{name}: the grids diverge, order {:.3}", found.order);
+            let error = error_of(Some(f64::INFINITY), note);
+            Err(Evidence { computed: Some(found.order), reference: Some(1.0), ..error })
+        }
+        Ok(found) => Ok(found),
+    }
+}
+
 /// Evidence of what three grids do not tell.
 fn untold(name: &str, none: NoOrder, values: &[(f64, f64)]) -> Evidence {
     let finite = values.iter().all(|(_, value)| value.is_finite());
@@ -24,8 +40,8 @@ fn untold(name: &str, none: NoOrder, values: &[(f64, f64)]) -> Evidence {
 
 /// How far the finest value is from the extrapolation of the grids before, over their band.
 pub fn band(name: &str, values: &[(f64, f64)]) -> Evidence {
-    match extrapolated(values, 1) {
-        Err(none) => untold(name, none, values),
+    match told(name, values, 1) {
+        Err(evidence) => evidence,
         Ok(found) => {
             let finest = values[values.len() - 1].1;
             let half = found.gci * values[values.len() - 2].1.abs();
@@ -37,8 +53,8 @@ pub fn band(name: &str, values: &[(f64, f64)]) -> Evidence {
 
 /// The last change over the one that the three grids before predict.
 pub fn change(name: &str, values: &[(f64, f64)]) -> Evidence {
-    match extrapolated(values, 1) {
-        Err(none) => untold(name, none, values),
+    match told(name, values, 1) {
+        Err(evidence) => evidence,
         Ok(found) => {
             let [.., (h, f), (finer, finest)] = values[..] else { return Evidence::default() };
             let predicted = (f - found.value) * (libm::pow(finer / h, found.order) - 1.0);
@@ -58,8 +74,8 @@ pub fn change(name: &str, values: &[(f64, f64)]) -> Evidence {
 
 /// The order of the three finest grids beside 1.
 pub fn order(name: &str, values: &[(f64, f64)]) -> Evidence {
-    match extrapolated(values, 0) {
-        Err(none) => untold(name, none, values),
+    match told(name, values, 0) {
+        Err(evidence) => evidence,
         Ok(found) => Evidence {
             computed: Some(found.order),
             reference: Some(1.0),
@@ -72,8 +88,8 @@ pub fn order(name: &str, values: &[(f64, f64)]) -> Evidence {
 
 /// How far the extrapolation of the finest grids is from the exact answer, over its band.
 pub fn known(name: &str, values: &[(f64, f64)], exact: f64) -> Evidence {
-    match extrapolated(values, 0) {
-        Err(none) => untold(name, none, values),
+    match told(name, values, 0) {
+        Err(evidence) => evidence,
         Ok(found) => {
             let half = found.gci * values[values.len() - 1].1.abs();
             let note = format!("{name}: {exact:.6} in {:.6} ± {half:.6}", found.value);
@@ -88,6 +104,18 @@ mod tests {
 
     fn grids(f: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
         [1.0, 0.5, 0.25, 0.125].map(|h| (h, f(h))).to_vec()
+    }
+
+    #[test]
+    fn grids_that_diverge_fail_every_claim() {
+        for f in [|h: f64| 1.0 + 0.05 * h.powf(-0.3), |h: f64| 1.0 - 0.05 * h.ln()] {
+            let values = grids(f);
+            for found in
+                [band("x", &values), change("x", &values), order("x", &values), known("x", &values, 1.0)]
+            {
+                assert_eq!(found.error, Some(f64::INFINITY), "{found:?}");
+            }
+        }
     }
 
     #[test]

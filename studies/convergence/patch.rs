@@ -83,7 +83,7 @@ impl Asked for PatchAsked {
             ));
         }
         let (material, title) = (material(written)?, written.title.to_owned());
-        let sequences = self.path.sequences(&self.weights)?;
+        let sequences = self.path.sequences(body, &self.weights)?;
         let finest: Vec<_> = sequences.iter().map(|one| one.lattice(one.finest())).collect();
         let mut tracks = Vec::new();
         for (sequence, name) in sequences.into_iter().zip(names::names(&finest)) {

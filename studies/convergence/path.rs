@@ -1,11 +1,12 @@
 //! How a case refines: δ → 0 at fixed m, m → ∞ at fixed δ, or both along a path; and the weights that it refines with.
 
 use crate::dispersion::m_convergence;
-use crate::dispersion::sweep::{check_count, kernels};
+use crate::dispersion::sweep::{check_count, check_sizes, kernels};
 use crate::dispersion::words::{KernelName, VolumeRuleName};
 use crate::input::{OneOrMany, one_or_many};
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::Lattice;
+use pd_verify::material::Body;
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::scene::{Positive, Wrong};
 use schemars::JsonSchema;
@@ -193,8 +194,8 @@ impl PathAsked {
         }
     }
 
-    /// Every refinement of these weights.
-    pub fn sequences(&self, weights: &WeightsAsked) -> Result<Vec<Sequence>, Wrong> {
+    /// Every refinement of these weights, none with more bonds than are made.
+    pub fn sequences(&self, body: Body, weights: &WeightsAsked) -> Result<Vec<Sequence>, Wrong> {
         let levels = self.levels().map_err(|wrong| wrong.inside("path"))?;
         let weights = weights.all().map_err(|wrong| wrong.inside("weights"))?;
         let of = |weights: &Weights| {
@@ -204,7 +205,10 @@ impl PathAsked {
                 .map(move |levels| Sequence { refine, weights, levels: levels.clone() })
                 .collect::<Vec<_>>()
         };
-        Ok(weights.iter().flat_map(of).collect())
+        let sequences: Vec<Sequence> = weights.iter().flat_map(of).collect();
+        let each = sequences.iter().flat_map(|one| one.levels.iter().map(|level| one.lattice(*level)));
+        check_sizes(body, &each.collect::<Vec<_>>()).map_err(|wrong| wrong.inside("path"))?;
+        Ok(sequences)
     }
 }
 

@@ -79,7 +79,12 @@ impl Asked for PointPulseAsked {
                 format!("a pulse {} m wide reaches beyond its period of {} m", pulse.width, pulse.side);
             return Err(Wrong::new("width_m", message, "take at most a twelfth of side_m"));
         }
-        let sequences = self.path.sequences(&self.weights)?;
+        let sequences = self.path.sequences(body, &self.weights)?;
+        let coarsest = sequences.iter().map(|one| one.levels[0].spacing).fold(0.0, f64::max);
+        if pulse.width < 2.0 * coarsest {
+            let message = format!("a pulse {} m wide falls between nodes {coarsest} m apart", pulse.width);
+            return Err(Wrong::new("width_m", message, "take at least twice the coarsest dx"));
+        }
         Ok(match body {
             Body::Bar => Box::new(Refined::<1, _>::new(written.title, pulse, sequences, PointPulse::ready)?),
             _ => Box::new(Refined::<2, _>::new(written.title, pulse, sequences, PointPulse::ready)?),
@@ -172,7 +177,7 @@ M(k): ω²/c² of local elasticity, of the nonlocal continuum, or of the lattice
 
     fn solve(&self, subject: &dyn Subject, march: &Marched<D>, medium: &Medium) -> Result<Solved, String> {
         let record = In::march(subject, &march.scene).map_err(|failure| failure.to_string())?;
-        let seen = whole::last(&record)?;
+        let seen = whole::last(&march.scene, &record)?;
         let missing = "the medium has no answer for these waves";
         let exact = march.exact(self, medium, march.end()).ok_or(missing)?;
         let steps = Carried::Steps(march.plan.steps, march.scene.speed() * march.plan.time_step_s);

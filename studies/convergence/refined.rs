@@ -161,7 +161,7 @@ where
                 name: track.name.clone(),
                 levels: steps.zip(solved.iter().map(|solved| solved.errors)).collect(),
             },
-            own: largest(solved.iter().filter_map(|solved| solved.own)),
+            own: largest(solved.iter().map(|solved| solved.own.unwrap_or(f64::NAN))),
             plateau: track.stops().then(|| self.problem.between(finest, &wrong, &right)).flatten(),
         })
     }
@@ -172,6 +172,10 @@ fn without_m(name: &str) -> String {
     name.split(", ").filter(|part| !part.starts_with("m = ")).collect::<Vec<_>>().join(", ")
 }
 
+/// How far an order may be from the expected one.
+const WITHIN: f64 = 0.1;
+/// How far a plateau may be from the predicted one, relative.
+const PLATEAU: f64 = 0.05;
 /// Index of L2 in [`NORMS`].
 const L2: usize = 1;
 
@@ -192,7 +196,7 @@ impl<L> Track<L> {
     }
 
     /// Claimed by itself, under its own name.
-    fn alone(&self) -> bool {
+    pub fn alone(&self) -> bool {
         !self.converges() && !self.stops()
     }
 }
@@ -223,7 +227,7 @@ where
             claims.extend(NORMS.map(|norm| {
                 let quantity = format!("order in δ of the error in {norm} of {what}, furthest lattice");
                 claim(place, &format!("order_{norm}"), quantity)
-                    .order(expected, 0.1)
+                    .order(expected, WITHIN)
                     .because(Basis::Theory, because)
                     .source(source)
             }));
@@ -234,8 +238,8 @@ where
             );
             claims.push(
                 claim(place, "plateau", quantity)
-                    .at_most(ErrorKind::Relative, 0.05)
-                    .because(Basis::Theory, "refining at a fixed m does not change the lattice's moduli: the error tends to that of a body with these, by δ², which is extrapolated from the two finest levels; 0.05 for the next power")
+                    .at_most(ErrorKind::Relative, PLATEAU)
+                    .because(Basis::Theory, "refining at a fixed m does not change the lattice's moduli: the error tends to that of a body with these, by even powers of δ; its square, a parabola in δ², is extrapolated from the three finest levels; 0.05 for the next power")
                     .source("local elasticity with the lattice's moduli, summed in double-double arithmetic"),
             );
         }
@@ -289,18 +293,22 @@ where
         let solved = format!("{} levels", self.levels().count());
         let mut evidence = Vec::new();
         if self.problem.has_own() {
-            evidence.push(("own".into(), error_of(largest(seen.iter().filter_map(|seen| seen.own)), solved)));
+            evidence.push((
+                "own".into(),
+                error_of(largest(seen.iter().map(|seen| seen.own.unwrap_or(f64::NAN))), solved),
+            ));
         }
         let expected = self.problem.order().expected;
         for (norm, name) in NORMS.iter().enumerate() {
             let converging = both().filter(|(track, _)| track.converges());
-            let orders = converging
-                .map(|(track, seen)| tail_order(&track.name, &seen.levels.in_norm(norm), expected, floor));
-            evidence.extend(furthest(orders).map(|found| (format!("order_{name}"), found)));
+            let orders = converging.map(|(track, seen)| {
+                tail_order(&track.name, &seen.levels.in_norm(norm), expected, WITHIN, floor)
+            });
+            evidence.extend(furthest(orders, WITHIN).map(|found| (format!("order_{name}"), found)));
         }
         let stopped = both().filter(|(track, _)| track.stops());
         let plateaus = stopped.map(|(track, seen)| plateau(track, seen));
-        evidence.extend(furthest(plateaus).map(|found| ("plateau".into(), found)));
+        evidence.extend(furthest(plateaus, PLATEAU).map(|found| ("plateau".into(), found)));
         for (track, seen) in both().filter(|(track, _)| track.alone()) {
             let found = theory::evidence_of(&track.expected::<D>(), &track.name, &seen.levels, floor);
             evidence.push((theory::name_of(&track.sequence), found));
@@ -312,16 +320,44 @@ where
 /// The level that the error tends to, over what the moduli predict; inconclusive where it is still far from there.
 fn plateau<L>(track: &Track<L>, seen: &Seen) -> Evidence {
     let errors = seen.levels.in_norm(L2);
-    let [.., (coarse, before), (fine, last)] = errors[..] else { return Evidence::default() };
-    let limit = last + (last - before) / ((coarse / fine).powi(2) - 1.0);
+    let (Some(limit), Some((_, last))) = (limit(&errors), errors.last()) else { return Evidence::default() };
     let predicted = seen.plateau.map(|errors| errors[L2]);
+    let share = predicted.map(|predicted| (limit / predicted - 1.0).abs());
     let far = (limit - last).abs() > 0.5 * limit.abs();
+    let expected = predicted.unwrap_or(f64::NAN);
     Evidence {
-        outside: far
-            .then(|| format!("{}: {last:.2e} is still far from a plateau, take finer levels", track.name)),
+        outside: far.then(|| {
+            format!("{}: {last:.2e} is still far from its plateau {limit:.2e}, take finer levels", track.name)
+        }),
         ..error_of(
-            predicted.map(|predicted| (limit / predicted - 1.0).abs()),
-            format!("{}: {limit:.4e}, {last:.4e} at the finest level", track.name),
+            share,
+            format!("{}: {limit:.4e} against {expected:.4e}, {last:.4e} at the finest level", track.name),
         )
+    }
+}
+
+/// What an error in L2 tends to: e² = |a + b δ² + …|², a parabola in δ², through the three finest levels. (The norm alone
+/// has no sign: where a and bδ² are opposed it falls and rises again.)
+fn limit(errors: &[(f64, f64)]) -> Option<f64> {
+    let [.., coarse, middle, fine] = errors else { return None };
+    let points = [coarse, middle, fine].map(|(h, error)| (h * h, error * error));
+    let share = |index: usize| {
+        let others = points.iter().enumerate().filter(|(other, _)| *other != index);
+        others.map(|(_, (x, _))| x / (x - points[index].0)).product::<f64>()
+    };
+    let square: f64 = (0..3).map(|index| share(index) * points[index].1).sum();
+    Some(square.sqrt()).filter(|limit| limit.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plateau_is_found_through_a_change_of_sign() {
+        let errors = [0.4, 0.2, 0.1].map(|h: f64| (h, (0.02 - 0.5 * h * h).abs()));
+        assert!((limit(&errors).unwrap() - 0.02).abs() < 1e-15);
+        assert_eq!(limit(&errors[1..]), None);
+        assert_eq!(limit(&[(4.0, 1.0), (2.0, f64::NAN), (1.0, 1.0)]), None);
     }
 }

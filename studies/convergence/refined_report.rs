@@ -3,10 +3,11 @@
 use super::path::Refine;
 use super::refined::{Problem, Refined, Seen, Track};
 use super::space::{In, Space};
+use super::theory::Expected;
 use crate::levels::{self, NORMS};
 use crate::question::Place;
-use pd_verify::compare::order::{Tail, tail};
-use pd_verify::report::plot::{Axis, Colour, Dash, Figure, Guide, Lines, Marker, Series};
+use pd_verify::compare::order::{Tail, fitted, tail};
+use pd_verify::report::plot::{Axis, Dash, Figure, Guide, Lines, Marker, Series};
 use pd_verify::table::Table;
 
 /// Curves that one panel can show.
@@ -52,7 +53,7 @@ where
             continue;
         }
         left_out += tracks.len().saturating_sub(DRAWN);
-        panels.push(panel(
+        panels.push(panel::<D, _>(
             title,
             ordered,
             &tracks[..tracks.len().min(DRAWN)],
@@ -61,7 +62,7 @@ where
         ));
     }
     let mut caption = format!(
-        "Error in L2 of {}, relative to the exact field. Broken lines: powers fitted to the finest levels whose pairwise orders agree.",
+        "Error in L2 of {}, relative to the exact field. Broken lines: the fitted powers, through the finest levels whose pairwise orders agree or, where nodes enter and leave the rim, through all.",
         refined.problem.what()
     );
     let at_floor: usize = seen.iter().map(|seen| tail(&seen.levels.in_norm(L2), floor).at_floor).sum();
@@ -76,22 +77,38 @@ where
     vec![figure]
 }
 
-fn panel<L>(title: &str, ordered: bool, tracks: &[(&Track<L>, &Seen)], floor: f64, order: f64) -> Lines {
+fn panel<const D: usize, L>(
+    title: &str,
+    ordered: bool,
+    tracks: &[(&Track<L>, &Seen)],
+    floor: f64,
+    order: f64,
+) -> Lines {
     let mut series = Vec::new();
     for (slot, (track, seen)) in tracks.iter().enumerate() {
         series.push(Series::both(track.name.clone(), seen.levels.in_norm(L2)).slot(slot));
     }
-    for (slot, (_, seen)) in tracks.iter().enumerate().filter(|_| ordered) {
-        let fitted = fit(&tail(&seen.levels.in_norm(L2), floor));
+    for (slot, (track, seen)) in tracks.iter().enumerate().filter(|_| ordered) {
+        let levels = seen.levels.in_norm(L2);
+        let judged = match track.expected::<D>() {
+            Expected::Falls { .. } if track.alone() => continue,
+            Expected::Slope { .. } if track.alone() => {
+                Tail { order: fitted(&levels), levels, at_floor: 0, too_coarse: 0 }
+            }
+            _ => tail(&levels, floor),
+        };
+        let fitted = fit(&judged);
         series.extend(fitted.map(|line| Series::line("", line).slot(slot).dash(Dash::Dashed).width(1.2)));
     }
     if !ordered {
         let mark = |(track, seen): &(&Track<L>, &Seen)| {
             Some((track.sequence.step(track.sequence.finest()), seen.plateau?[L2]))
         };
-        let marks =
-            Series::markers("of a body with the lattice's moduli", tracks.iter().filter_map(mark).collect());
-        series.push(marks.colour(Colour::Black).marker(Marker::Plus));
+        for (slot, track) in tracks.iter().enumerate() {
+            let label = if slot == 0 { "+ of a body with the lattice's moduli" } else { "" };
+            let marks = Series::markers(label, mark(track).into_iter().collect());
+            series.push(marks.slot(slot).marker(Marker::Plus));
+        }
     }
     let by_m = tracks.iter().all(|(track, _)| track.sequence.refine == Refine::M);
     let x = if by_m { Axis::log("1/m = Δx/δ") } else { Axis::log("δ (m)") };

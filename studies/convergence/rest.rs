@@ -77,7 +77,7 @@ impl Asked for ManufacturedAsked {
 
     fn check(&self, written: &Written<'_>) -> Result<Box<dyn Question>, Wrong> {
         let body = Body::from(self.body);
-        let sequences = self.path.sequences(&self.weights)?;
+        let sequences = self.path.sequences(body, &self.weights)?;
         let k = PI / self.side_m.0;
         match body {
             Body::Bar => {
@@ -238,6 +238,9 @@ on the lattice between mirrors: u = M_lattice⁻¹ M a cos(k·x + φ)"
         let beyond = "the medium carries no such wave";
         let scene = self.loaded(level, medium).ok_or(beyond)?;
         let rest = In::rest(subject, &scene)?;
+        if rest.len() != scene.nodes.iter().product::<usize>() {
+            return Err(format!("{} answers for {:?} nodes", rest.len(), scene.nodes));
+        }
         let free: Vec<[f64; D]> = whole::nodes(&scene)
             .zip(rest)
             .filter(|(node, _)| level.free(*node))

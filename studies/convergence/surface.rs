@@ -83,6 +83,8 @@ pub struct Pulled {
 
 /// σ/C₁₁; the body is linear, so that it is of no account.
 const LOAD: f64 = 1e-6;
+/// How far an order may be from the expected one.
+const WITHIN: f64 = 0.1;
 /// Errors below may be what conjugate gradients lose.
 const FLOOR: f64 = 1e-9;
 
@@ -105,7 +107,7 @@ impl Asked for SurfaceAsked {
         let (material, title) = (material(written)?, written.title.to_owned());
         let corrections =
             distinct(self.correction.clone().unwrap_or_else(|| one_or_many(Correction::None)).0);
-        let sequences = self.path.sequences(&self.weights)?;
+        let sequences = self.path.sequences(body, &self.weights)?;
         let finest: Vec<_> = sequences.iter().map(|one| one.lattice(one.finest())).collect();
         let top = self.top.unwrap_or_default();
         let above = if top == Top::Free { Edge::Free } else { Edge::MirrorOdd };
@@ -271,14 +273,14 @@ impl Surface {
                 mine.map(|(track, pulled)| track.refinement(pulled))
             };
             for (norm, (name, expected)) in NORMS.iter().zip(self.top.orders()).enumerate() {
-                let orders =
-                    mine().map(|levels| tail_order(&levels.name, &levels.in_norm(norm), *expected, FLOOR));
-                evidence.extend(furthest(orders).map(|found| (order_name(name, correction), found)));
+                let orders = mine()
+                    .map(|levels| tail_order(&levels.name, &levels.in_norm(norm), *expected, WITHIN, FLOOR));
+                evidence.extend(furthest(orders, WITHIN).map(|found| (order_name(name, correction), found)));
             }
             if self.top == Top::Mirror {
                 continue;
             }
-            let corners = furthest(mine().map(|levels| logarithm(&levels)));
+            let corners = furthest(mine().map(|levels| logarithm(&levels)), WITHIN);
             evidence.extend(corners.map(|found| (format!("corner_{}", correction.name()), found)));
         }
         evidence
@@ -301,7 +303,7 @@ impl Question for Surface {
                 );
                 claims.push(
                     claim(place, &order_name(norm, correction), quantity)
-                        .order(*expected, 0.1)
+                        .order(*expected, WITHIN)
                         .because(Basis::Theory, self.top.because())
                         .source(source),
                 );
@@ -314,7 +316,7 @@ impl Question for Surface {
             );
             claims.push(
                 claim(place, &format!("corner_{}", correction.name()), quantity)
-                    .order(0.0, 0.1)
+                    .order(0.0, WITHIN)
                     .because(Basis::Theory, "the layer along the free edge carries too little or too much by a force cσδ, which enters at the corner like a point force: its displacement grows as ln(L/δ) there (Flamant), so that the largest error is δ(a + b ln(L/δ)), the growth b; δ^p would show p − 1, what follows the logarithm falls with δ")
                     .source(source),
             );

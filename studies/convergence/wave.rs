@@ -28,7 +28,7 @@ use std::f64::consts::TAU;
 #[serde(deny_unknown_fields)]
 pub struct PlaneWaveAsked {
     pub body: BodyName,
-    /// About: the body holds whole cells at every level.
+    /// About: the body holds whole cells at every level, and claims say the length that is taken.
     pub wavelength_m: Positive,
     /// Of a plate: the wave runs along this vector of whole numbers.
     pub direction: Option<[u32; 2]>,
@@ -50,7 +50,7 @@ pub struct PlaneWave<const D: usize> {
     /// Periods along each axis to one wavelength: the direction's whole numbers.
     pub direction: [u32; D],
     pub branch: Branch,
-    /// Asked for, in m.
+    /// In m, about.
     pub wavelength: f64,
     /// Of the local wave.
     pub periods: f64,
@@ -79,7 +79,7 @@ impl Asked for PlaneWaveAsked {
 
     fn check(&self, written: &Written<'_>) -> Result<Box<dyn Question>, Wrong> {
         let body = Body::from(self.body);
-        let sequences = self.path.sequences(&self.weights)?;
+        let sequences = self.path.sequences(body, &self.weights)?;
         match body {
             Body::Bar => {
                 let given = [("direction", self.direction.is_some()), ("branch", self.branch.is_some())];
@@ -87,7 +87,7 @@ impl Asked for PlaneWaveAsked {
                     let message = format!("{key} says nothing about a bar");
                     return Err(Wrong::new(key, message, "leave it out, or take a plate"));
                 }
-                let wave = self.wave(written, body, [1], Branch::P)?;
+                let wave = self.wave(written, body, [1], Branch::P)?.fitting(&sequences)?;
                 Ok(Box::new(Refined::new(written.title, wave, sequences, PlaneWave::ready)?))
             }
             Body::PlaneStress | Body::PlaneStrain => {
@@ -96,7 +96,7 @@ impl Asked for PlaneWaveAsked {
                 let direction = self.direction.ok_or_else(|| missing("direction"))?;
                 let branch = self.branch.ok_or_else(|| missing("branch"))?.into();
                 PlaneWave::<2>::check_direction(direction)?;
-                let wave = self.wave(written, body, direction, branch)?;
+                let wave = self.wave(written, body, direction, branch)?.fitting(&sequences)?;
                 Ok(Box::new(Refined::new(written.title, wave, sequences, PlaneWave::ready)?))
             }
         }
@@ -139,6 +139,14 @@ impl<const D: usize> PlaneWave<D>
 where
     In: Space<D>,
 {
+    /// The same with the length that whole cells allow nearest to the one asked for.
+    fn fitting(self, sequences: &[Sequence]) -> Result<Self, Wrong> {
+        let Some(first) = sequences.first() else { return Ok(self) };
+        let (wavenumber, _) = self.shape(first, first.levels[0])?;
+        let length = wavenumber.iter().map(|k| k * k).sum::<f64>().sqrt();
+        Ok(Self { wavelength: TAU / length, ..self })
+    }
+
     /// Speed of the local wave in m/s.
     pub fn speed(&self) -> f64 {
         match self.branch {
@@ -257,7 +265,7 @@ where
     type Level = Marched<D>;
 
     fn what(&self) -> String {
-        "the displacement of a standing plane wave".into()
+        format!("the displacement of a standing plane wave, λ = {:.6} m", self.wavelength)
     }
 
     fn equations(&self) -> &'static str {
@@ -288,7 +296,7 @@ leapfrog: cos(2n asin(√M cΔt/2)) in place of cos(√M ct)"
 
     fn solve(&self, subject: &dyn Subject, march: &Marched<D>, medium: &Medium) -> Result<Solved, String> {
         let record = In::march(subject, &march.scene).map_err(|failure| failure.to_string())?;
-        let seen = whole::last(&record)?;
+        let seen = whole::last(&march.scene, &record)?;
         let own = whole::lattice(&march.scene);
         let (k, a) = (march.wavenumber, march.amplitude);
         let carried =

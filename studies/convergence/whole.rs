@@ -19,11 +19,18 @@ pub fn nodes<const D: usize>(scene: &Scene<D>) -> impl Iterator<Item = [usize; D
     })
 }
 
-/// Displacements of the last snapshot in m, a field for each component.
-pub fn last(record: &Record) -> Result<&[Vec<f64>], String> {
+/// Displacements of the last snapshot of a scene in m, a field for each component.
+pub fn last<'r, const D: usize>(scene: &Scene<D>, record: &'r Record) -> Result<&'r [Vec<f64>], String> {
+    let count = scene.nodes.iter().product::<usize>();
     match record.snapshots.last() {
-        Some(snapshot) if snapshot.step == record.plan.steps => Ok(&snapshot.displacement),
-        _ => Err("the body was not seen at the end".into()),
+        Some(snapshot)
+            if snapshot.step == record.plan.steps
+                && snapshot.displacement.len() == D
+                && snapshot.displacement.iter().all(|field| field.len() == count) =>
+        {
+            Ok(&snapshot.displacement)
+        }
+        _ => Err("the whole body was not seen at the end".into()),
     }
 }
 
