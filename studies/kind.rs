@@ -64,6 +64,11 @@ impl Kind {
         }
     }
 
+    /// Whether no figure of a case that asks this is called like the case alone.
+    pub fn suffixes_all_figures(self, asks: &str) -> bool {
+        self.words().iter().any(|word| word.name == asks && word.suffixes_all_figures)
+    }
+
     /// Turns a case into the question that it asks, or says what is wrong with it.
     pub fn read_case(self, asks: &str, written: &Written<'_>) -> Result<Box<dyn Question>, Refusal> {
         match self.words().iter().find(|word| word.name == asks) {

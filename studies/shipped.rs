@@ -43,6 +43,20 @@ pub fn shipped(kind: Option<Kind>, settings: &[Setting]) -> Result<Vec<Study>, R
     Ok(studies)
 }
 
+/// The commands that run all shipped studies of a kind, in words.
+pub fn commands() -> String {
+    let with_studies = |kind: &Kind| SHIPPED.iter().any(|(name, text)| is_of(*kind, name, text));
+    let all: Vec<String> = Kind::ALL
+        .into_iter()
+        .filter(with_studies)
+        .map(|kind| format!("`pd-verify {}`", kind.word()))
+        .collect();
+    match all.split_last() {
+        Some((last, others)) if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        _ => all.concat(),
+    }
+}
+
 /// Whether a study's text gives itself this kind.
 fn is_of(kind: Kind, name: &str, text: &str) -> bool {
     let document = Document::parse(name, text);

@@ -137,10 +137,10 @@ fn check_id(document: &Document, path: &str, id: &str) -> Result<(), Refusal> {
     Err(document.refuse(path, message).help("use lower-case letters, digits, - and _, at most 80"))
 }
 
-/// A case's figure is called like the case; it must not take the place of a table.
+/// A case's figure is called like the case and has a CSV of that name; it must not take the place of a table.
 fn check_figure_name(document: &Document, kind: Kind, path: &str, case: &CaseHeader) -> Result<(), Refusal> {
     let id = case.id.as_str();
-    if !kind.tables().contains(&id) || case.asks == id {
+    if !kind.tables().contains(&id) || kind.suffixes_all_figures(&case.asks) {
         return Ok(());
     }
     Err(document.refuse(path, format!("\"{id}\" is the name of a table")).help("choose another id"))

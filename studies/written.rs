@@ -22,6 +22,14 @@ pub struct Written<'a> {
 }
 
 impl Written<'_> {
+    /// The material of the study, or what to add.
+    pub fn material(&self) -> Result<Material, Wrong> {
+        self.material.ok_or_else(|| {
+            let help = "add a [material] table with youngs_modulus_pa and density_kg_m3";
+            Wrong::new("", "this case needs the material of its body", help)
+        })
+    }
+
     /// The refusal of what is wrong, at its place in the file.
     pub fn refuse(&self, wrong: Wrong) -> Refusal {
         let wrong = wrong.inside(&self.path);
@@ -47,6 +55,8 @@ pub struct Word {
     pub name: &'static str,
     /// Whether messages offer it; what only the shipped studies need is not offered.
     pub offered: bool,
+    /// Whether its figures all have more in their names than the case's id: such a case may be called like a table.
+    pub suffixes_all_figures: bool,
     read: fn(&Written<'_>) -> Result<Box<dyn Question>, Refusal>,
     schema: fn(&mut SchemaGenerator) -> Schema,
 }
@@ -54,12 +64,17 @@ pub struct Word {
 impl Word {
     /// The word `name`, which asks what `A` says.
     pub const fn of<A: Asked>(name: &'static str) -> Self {
-        Self { name, offered: true, read: read::<A>, schema: A::json_schema }
+        Self { name, offered: true, suffixes_all_figures: false, read: read::<A>, schema: A::json_schema }
     }
 
     /// The same word, kept out of messages.
     pub const fn not_offered(self) -> Self {
         Self { offered: false, ..self }
+    }
+
+    /// The same word, whose figures are all called like the case with more behind.
+    pub const fn all_figures_suffixed(self) -> Self {
+        Self { suffixes_all_figures: true, ..self }
     }
 
     /// Turns a case into its question, or says what is wrong with it.

@@ -186,6 +186,14 @@ impl<const D: usize> Force<D> for Load {
         }
     }
 
+    fn loaded(&self, grid: &Grid<D>) -> Option<Vec<usize>> {
+        let start = |piece: usize| grid.body().start + piece * grid.piece();
+        let of_piece = |(piece, places): (usize, &Vec<usize>)| -> Vec<usize> {
+            places.iter().map(|place| start(piece) + place).collect()
+        };
+        Some(self.places.iter().enumerate().flat_map(of_piece).collect())
+    }
+
     fn bytes(&self) -> usize {
         self.places.iter().map(|places| 8 * places.len()).sum()
     }

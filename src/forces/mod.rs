@@ -63,6 +63,11 @@ pub trait Force<const D: usize>: Send + Sync {
         None
     }
 
+    /// Places in a field on which it acts, where these are known beforehand, as those of a load on some nodes are.
+    fn loaded(&self, _grid: &Grid<D>) -> Option<Vec<usize>> {
+        None
+    }
+
     /// Bytes it keeps for the whole body.
     fn bytes(&self) -> usize {
         0

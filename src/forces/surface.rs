@@ -109,21 +109,22 @@ impl<const D: usize> Factors<D> {
 
     /// Whether every bond of a node keeps its weight.
     pub fn neutral(&self, node: [isize; D]) -> bool {
-        self.offsets.iter().enumerate().all(|(bond, offset)| {
-            let backward = std::array::from_fn(|axis| node[axis] - offset[axis] as isize);
-            let exists = |sign: i32| self.connectivity.present(node, offset.map(|n| sign * n));
-            (!exists(1) || self.of(node, bond) == 1.0) && (!exists(-1) || self.of(backward, bond) == 1.0)
-        })
+        self.around(node).all(|factor| factor == 1.0)
     }
 
     /// The largest factor of a bond that exists: the frequencies of a body of positive weights grow by at most its root.
     pub fn largest(&self, grid: &Grid<D>) -> f64 {
-        let exists = |node, bond: usize| self.connectivity.present(node, self.offsets[bond]);
-        let of = |node| {
-            let bonds = (0..self.offsets.len()).filter(move |&bond| exists(node, bond));
-            bonds.map(|bond| self.of(node, bond)).fold(1.0, f64::max)
-        };
-        grid.each().map(of).fold(1.0, f64::max)
+        grid.each().flat_map(|node| self.around(node)).fold(1.0, f64::max)
+    }
+
+    /// The factors of a node's bonds, those that it owns and those that others own, ghosts beyond an edge among them.
+    fn around(&self, node: [isize; D]) -> impl Iterator<Item = f64> + '_ {
+        self.offsets.iter().enumerate().flat_map(move |(bond, offset)| {
+            let backward = std::array::from_fn(|axis| node[axis] - offset[axis] as isize);
+            let exists = |sign: i32| self.connectivity.present(node, offset.map(|n| sign * n));
+            let own = exists(1).then(|| self.of(node, bond));
+            own.into_iter().chain(exists(-1).then(|| self.of(backward, bond)))
+        })
     }
 
     fn at(&self, node: [isize; D]) -> [f64; D] {

@@ -9,6 +9,7 @@ pub use step::stable_time_step;
 use crate::constraints::Edge;
 use crate::forces::surface::Correction;
 use crate::forces::{Class, Finite, Law, Small};
+use crate::grid::Grid;
 use crate::lattice::Stencil;
 use crate::scene::{Acts, Operator, Rotations, Scene, Setting, Watch, Wrong, snapshot};
 use counts::Counts;
@@ -71,9 +72,10 @@ impl Plan {
         let setting = Setting::of(scene, &grid);
         let mut terms = Terms::default();
         for (index, effect) in scene.effects.iter().enumerate() {
-            let acts = effect.act(&setting).and_then(|acts| terms.join(acts));
+            let acts = effect.act(&setting).and_then(|acts| terms.join(acts, index, &grid));
             acts.map_err(|wrong| wrong.inside(&format!("effect[{index}]")))?;
         }
+        terms.all_loads_act()?;
         let counts = Counts::of(scene, &stencil, &grid);
         checks::bonded(scene, &counts)?;
         let (time_step, over_limit, steps) = steps(&stencil, counts.largest_factor)?;
@@ -115,15 +117,18 @@ impl Plan {
 struct Terms {
     bytes: usize,
     driven: HashSet<usize>,
+    /// Loads on some nodes: which effect, its name, its places.
+    loads: Vec<(usize, String, Vec<usize>)>,
     rates: usize,
 }
 
 impl Terms {
     /// Counts a term, refused where it contradicts another.
-    fn join<const D: usize>(&mut self, acts: Acts<D>) -> Result<(), Wrong> {
+    fn join<const D: usize>(&mut self, acts: Acts<D>, index: usize, grid: &Grid<D>) -> Result<(), Wrong> {
         match acts {
             Acts::Force(force) => {
                 self.bytes += force.bytes();
+                self.loads.extend(force.loaded(grid).map(|places| (index, force.name(), places)));
                 self.rates += usize::from(force.class() == Class::Rate);
                 if self.rates > 1 {
                     let message = "two effects depend on the velocity; the step is solved for one of them";
@@ -143,6 +148,17 @@ impl Terms {
             }
         }
         Ok(())
+    }
+
+    /// Refuses a load none of whose nodes is free to follow it. Said once all effects are known: motions may come later.
+    fn all_loads_act(&self) -> Result<(), Wrong> {
+        let idle = |places: &[usize]| places.iter().all(|place| self.driven.contains(place));
+        let Some((index, name, _)) = self.loads.iter().find(|(_, _, places)| idle(places)) else {
+            return Ok(());
+        };
+        let message = format!("the {name} does nothing: all its nodes are driven along its axis by a motion");
+        let help = "leave the load or the motion out, or let one of them act on other nodes";
+        Err(Wrong::new(format!("effect[{index}].axis"), message, help))
     }
 }
 

@@ -128,6 +128,10 @@ impl Region {
                 };
                 grid.each().filter(inside).collect()
             }
+            (None, None, None) => {
+                let message = "a depth is counted from an edge, and edge is missing";
+                return Err(Wrong::new("", message, "give edge, for example edge = \"left\""));
+            }
             _ => {
                 let help =
                     "give edge with depth_m, or from_m and to_m, or leave the table out for the whole body";

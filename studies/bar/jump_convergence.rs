@@ -72,7 +72,7 @@ impl Asked for JumpConvergenceAsked {
     type Question = JumpConvergence;
 
     fn check(&self, written: &Written<'_>) -> Result<JumpConvergence, Wrong> {
-        let bar = self.bar.check(written.material)?;
+        let bar = self.bar.check(written.material()?)?;
         let spacings = refining("dx_m", &self.dx_m, |coarse, fine| coarse > fine)?;
         let marching = marching(self.duration_s, None, self.safety)?;
         let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;

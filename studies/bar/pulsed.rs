@@ -54,10 +54,7 @@ const TAIL: f64 = 1e-15;
 
 /// The material of a study, or what to add.
 pub fn material(written: &Written<'_>) -> Result<Material, Wrong> {
-    written.material.ok_or_else(|| {
-        let help = "add a [material] table with youngs_modulus_pa and density_kg_m3";
-        Wrong::new("", "a bar that is marched needs its material", help)
-    })
+    written.material()
 }
 
 impl Pulsed {

@@ -72,7 +72,7 @@ impl Asked for ReleaseAsked {
     type Question = Release;
 
     fn check(&self, written: &Written<'_>) -> Result<Release, Wrong> {
-        let bar = self.bar.check(written.material)?;
+        let bar = self.bar.check(written.material()?)?;
         if !(1..=MAX_TERMS).contains(&self.fourier_terms) {
             let message = format!("{} terms make no series", self.fourier_terms);
             return Err(Wrong::new("fourier_terms", message, format!("take 1 to {MAX_TERMS}")));

@@ -45,11 +45,7 @@ pub struct Released {
 }
 
 impl BarAsked {
-    pub fn check(&self, material: Option<Material>) -> Result<Released, Wrong> {
-        let Some(material) = material else {
-            let help = "add a [material] table with youngs_modulus_pa and density_kg_m3";
-            return Err(Wrong::new("", "a bar that is marched needs its material", help));
-        };
+    pub fn check(&self, material: Material) -> Result<Released, Wrong> {
         let strain = self.force_n.0 / (material.youngs_modulus * self.section_m2.0);
         let speed = material.dilatational_speed(Body::Bar);
         let exact = ReleasedBar { length: self.length_m.0, speed, strain };

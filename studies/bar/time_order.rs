@@ -57,7 +57,7 @@ impl Asked for TimeOrderAsked {
     type Question = TimeOrder;
 
     fn check(&self, written: &Written<'_>) -> Result<TimeOrder, Wrong> {
-        let bar = self.bar.check(written.material)?;
+        let bar = self.bar.check(written.material()?)?;
         let steps = refining("time_step_s", &self.time_step_s, |coarse, fine| coarse > fine)?;
         let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;
         let mut sequences = Vec::new();

@@ -9,7 +9,7 @@ use crate::manifest::{Manifest, StudyHash};
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::run::{Ran, merge, run};
-use crate::shipped::{refuse_unused, shipped};
+use crate::shipped::{commands, refuse_unused, shipped};
 use crate::study::Study;
 use crate::subject::PdVerify;
 use pd_verify::report::{
@@ -77,8 +77,9 @@ fn read_files(files: &[PathBuf], kind: Option<Kind>, settings: &[Setting]) -> Re
     let mut groups: Vec<Group> = Vec::new();
     let mut used = vec![false; settings.len()];
     for file in files {
-        let cure = "give the path of a study file; `pd-verify dispersion` and `pd-verify bar` run the shipped studies";
-        let text = read_text(file, cure)?;
+        let cure =
+            format!("give the path of a study file, or run all shipped ones of a kind with {}", commands());
+        let text = read_text(file, &cure)?;
         let (study, found) = Study::read(&file.display().to_string(), &text, settings)?;
         used.iter_mut().zip(found).for_each(|(used, found)| *used |= found);
         if kind.is_some_and(|kind| kind != study.kind) {

@@ -2,7 +2,7 @@
 
 use crate::input::Refusal;
 use crate::question::Profile;
-use crate::shipped::shipped;
+use crate::shipped::{commands, shipped};
 use crate::study::Study;
 use serde_json::json;
 
@@ -26,7 +26,10 @@ pub fn list(as_json: bool) -> Result<String, Refusal> {
         }
         text += "\n";
     }
-    text += "Run all of a kind with `pd-verify dispersion` or `pd-verify bar`; `pd-verify explain ID` says what an entry claims and why.\n";
+    text += &format!(
+        "Run all of a kind with {}; `pd-verify explain ID` says what an entry claims and why.\n",
+        commands()
+    );
     Ok(text)
 }
 

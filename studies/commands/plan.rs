@@ -2,7 +2,7 @@
 
 use super::find::find;
 use super::judge::settings;
-use super::scene_lines::SceneLines;
+use super::scene_lines::{SceneLines, is_at_rest};
 use crate::input::Refusal;
 use crate::question::{Effort, Planned, Profile};
 use crate::scene::effects;
@@ -83,13 +83,21 @@ fn as_data(study: &Study, profile: Profile, rows: &[Row], total: Effort) -> Stri
     serde_json::to_string_pretty(&plan).expect("plain data") + "\n"
 }
 
-/// What the cases march in time, in words.
+/// What the cases march in time and what they find at rest, in words.
 fn marched(rows: &[Row]) -> String {
     if rows.iter().all(|row| row.scenes.is_empty()) {
         return "nothing is marched in time: waves are evaluated, effects are off".to_owned();
     }
-    let run = rows.iter().filter(|row| row.runs).map(|row| row.scenes.len()).sum();
-    format!("{} to march in time, shown below", counted(run))
+    let run = || rows.iter().filter(|row| row.runs).flat_map(|row| &row.scenes);
+    let at_rest = run().filter(|scene| is_at_rest(scene)).count();
+    let parts = match (run().count() - at_rest, at_rest) {
+        (marched, 0) => vec![format!("{} to march in time", counted(marched))],
+        (0, at_rest) => vec![format!("{} to find at rest", counted(at_rest))],
+        (marched, at_rest) => {
+            vec![format!("{} to march in time", counted(marched)), format!("{at_rest} to find at rest")]
+        }
+    };
+    format!("{}, shown below", parts.join(", "))
 }
 
 fn counted(scenes: usize) -> String {
@@ -178,5 +186,29 @@ mod tests {
         assert_eq!(data["cases"][0]["scenes"], json!([]));
         assert_eq!(data["cases"][1]["scenes"][0]["steps"], 2000);
         assert_eq!(data["total"]["node_updates"], 2_000_000);
+    }
+
+    #[test]
+    fn what_is_found_at_rest_is_counted_apart() {
+        let (name, text) = SHIPPED[0];
+        let (mut study, _) = Study::read(name, text, &[]).unwrap();
+        study.cases.truncate(2);
+        let [marched] = Marching.scenes().try_into().unwrap();
+        let at_rest = || Planned { steps: 0, time_step_s: 0.0, node_updates: 0, ..marched.clone() };
+        let said = |scenes: [Vec<Planned>; 2]| {
+            let rows = study
+                .cases
+                .iter()
+                .zip(scenes)
+                .map(|(case, scenes)| Row { scenes, ..row_of(case, Profile::Full) });
+            super::marched(&rows.collect::<Vec<_>>())
+        };
+        let (one, two) = (vec![at_rest()], vec![at_rest(), marched.clone(), at_rest()]);
+        assert_eq!(
+            said([one.clone(), two.clone()]),
+            "1 scene to march in time, 3 to find at rest, shown below"
+        );
+        assert_eq!(said([one, vec![]]), "1 scene to find at rest, shown below");
+        assert_eq!(said([vec![], vec![marched.clone()]]), "1 scene to march in time, shown below");
     }
 }

@@ -90,19 +90,36 @@ impl Line<'_> {
                 "    {:<width$} {:>11} {:>12} {:>10} {:>11} {:>8} {:>10} {:>15}",
                 "scene", "nodes", "bonds", "bytes/node", "Δt in s", "Δt/limit", "steps", "node updates"
             ),
-            Self::Scene(scene) => format!(
-                "    {:<width$} {:>11} {:>12} {:>10.1} {:>11.4e} {:>8.4} {:>10} {:>15}",
-                cut(&scene.name, width),
-                scene.nodes,
-                scene.bonds,
-                scene.bytes_per_node,
-                scene.time_step_s,
-                scene.time_step_over_limit,
-                scene.steps,
-                scene.node_updates
-            ),
+            Self::Scene(scene) => {
+                let [step, over_limit, steps, updates] = in_time(scene);
+                format!(
+                    "    {:<width$} {:>11} {:>12} {:>10.1} {step:>11} {over_limit:>8} {steps:>10} {updates:>15}",
+                    cut(&scene.name, width),
+                    scene.nodes,
+                    scene.bonds,
+                    scene.bytes_per_node,
+                )
+            }
         }
     }
+}
+
+/// Δt, Δt over its limit, steps and node updates; a body at rest has none of them.
+fn in_time(scene: &Planned) -> [String; 4] {
+    if is_at_rest(scene) {
+        return ["at rest", "-", "-", "-"].map(str::to_owned);
+    }
+    [
+        format!("{:.4e}", scene.time_step_s),
+        format!("{:.4}", scene.time_step_over_limit),
+        scene.steps.to_string(),
+        scene.node_updates.to_string(),
+    ]
+}
+
+/// Whether a scene is found at rest instead of being marched.
+pub fn is_at_rest(scene: &Planned) -> bool {
+    scene.steps == 0
 }
 
 /// The text, its last character an ellipsis where it is longer than `width`.
@@ -181,6 +198,24 @@ mod tests {
                 "{text}"
             );
         }
+    }
+
+    #[test]
+    fn a_body_at_rest_has_no_time_step() {
+        let at_rest = Planned {
+            time_step_s: 0.0,
+            time_step_over_limit: 0.0,
+            steps: 0,
+            node_updates: 0,
+            bond_updates: 0,
+            ..scene(1, "half")
+        };
+        let text = SceneLines::default().of_case(&[scene(2, "half"), at_rest]);
+        let words: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+        let row = words.iter().find(|words| words.starts_with(&["m", "=", "1"])).unwrap();
+        assert_eq!(row[3..], ["1000", "3000", "56.0", "at", "rest", "-", "-", "-"], "{text}");
+        let widths: Vec<usize> = text.lines().skip(3).map(|line| line.chars().count()).collect();
+        assert!(widths.windows(2).all(|pair| pair[0] == pair[1]), "{text}");
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub const WORDS: &[Word] = &[
     Word::of::<m_convergence::MConvergenceAsked>("m_convergence"),
     Word::of::<symmetry::SymmetryAsked>("symmetry"),
     Word::of::<small_p::SmallPAsked>("small_p"),
-    Word::of::<moduli::ModuliAsked>("moduli"),
+    Word::of::<moduli::ModuliAsked>("moduli").all_figures_suffixed(),
     Word::of::<time_step::TimeStepAsked>("time_step"),
     Word::of::<reflection::ReflectionAsked>("reflection"),
     Word::of::<reflection_oracles::ReflectionOraclesAsked>("reflection_oracles"),

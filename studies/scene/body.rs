@@ -5,7 +5,6 @@ use super::march::MarchAsked;
 use super::size::cells;
 use super::snapshots;
 use super::time::time;
-use crate::written::Written;
 use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
@@ -17,14 +16,6 @@ use std::sync::Arc;
 
 /// Nodes times steps up to which the ledger is kept though no probe asks for it: seconds.
 const MAX_BOOKED: u64 = 300_000_000;
-
-/// The material of the study.
-pub fn material(written: &Written<'_>) -> Result<Material, Wrong> {
-    written.material.ok_or_else(|| {
-        let help = "add a [material] table with youngs_modulus_pa and density_kg_m3";
-        Wrong::new("", "a march needs a material", help)
-    })
-}
 
 /// The notches of a plate.
 fn notches<const D: usize>(asked: &MarchAsked, nodes: [usize; D], spacing: f64) -> Result<Vec<Notch>, Wrong> {

@@ -101,7 +101,7 @@ impl Asked for MarchAsked {
     }
 
     fn check(&self, written: &Written<'_>) -> Result<March, Wrong> {
-        let material = body::material(written)?;
+        let material = written.material()?;
         let of = Body::from(self.body);
         let lattices = self.lattice.usable(of).map_err(|wrong| wrong.inside("lattice"))?;
         if lattices.len() > MAX_SCENES {

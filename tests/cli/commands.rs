@@ -32,6 +32,20 @@ fn list_names_every_study_and_case() {
 }
 
 #[test]
+fn the_commands_of_all_shipped_kinds_are_named() {
+    let text = printed(&["list"]);
+    let json: Value = serde_json::from_str(&printed(&["list", "--json"])).unwrap();
+    let last = text.lines().last().unwrap();
+    for study in json.as_array().unwrap() {
+        let command = format!("`pd-verify {}`", study["kind"].as_str().unwrap());
+        assert!(last.contains(&command), "{command}: {last}");
+        Place::new().refuses(&["run", "none.toml"], &["cannot read none.toml", &command]);
+    }
+    // Scenes are one's own; no command runs them.
+    assert!(!last.contains("pd-verify scene"), "{last}");
+}
+
+#[test]
 fn explain_takes_a_study_a_case_and_a_claim() {
     for id in ["dispersion-bar", "dispersion-bar/kernels", "dispersion-bar/kernels/grid"] {
         let text = printed(&["explain", id]);

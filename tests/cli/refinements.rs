@@ -133,9 +133,41 @@ fn what_cannot_be_refined_is_refused_and_nothing_is_written() {
     }
 }
 
+/// A case's figure has a CSV that is called like the case, also where the case asks what the table is called after.
+#[test]
+fn a_case_is_not_called_like_the_table_that_it_writes() {
+    for (id, case) in [
+        ("volume_rules", RULES),
+        ("patch", "asks = \"patch\"\n"),
+        ("grid_convergence", "asks = \"grid_convergence\"\n"),
+        ("convergence", WAVE),
+    ] {
+        let place = place(case);
+        let set = place.read("study.toml").replace("id = \"a\"", &format!("id = \"{id}\""));
+        place.write("study.toml", set);
+        place.refuses(&["run", "study.toml"], &["study.toml:7:", "is the name of a table", "another id"]);
+    }
+}
+
+#[test]
+fn a_material_is_missed_whatever_the_body() {
+    for case in [WAVE, BAR, SQUARE] {
+        let place = place(case);
+        let text = place.read("study.toml");
+        let bare: Vec<&str> = text.lines().filter(|line| !line.starts_with("material")).collect();
+        place.write("study.toml", bare.join("\n"));
+        place.refuses(&["run", "study.toml"], &["needs the material of its body", "[material]"]);
+    }
+}
+
 #[test]
 fn a_plan_of_a_body_at_rest_has_no_steps() {
     let place = place(SQUARE);
+    let said = place.run(&["plan", "study.toml"]).code(0);
+    let text = String::from_utf8_lossy(&said.get_output().stdout).into_owned();
+    assert!(text.contains("5 scenes to find at rest, shown below") && !text.contains("to march"), "{text}");
+    let rows = text.lines().filter(|line| line.split_whitespace().rev().take(3).all(|word| word == "-"));
+    assert_eq!(rows.filter(|line| line.contains(" at rest ")).count(), 5, "{text}");
     let said = place.run(&["plan", "study.toml", "--json"]).code(0);
     let plan: serde_json::Value = serde_json::from_slice(&said.get_output().stdout).expect("a plan in JSON");
     let scene = &plan["cases"][0]["scenes"][0];

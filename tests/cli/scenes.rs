@@ -190,7 +190,8 @@ fn bodies_that_cannot_be() {
     Place::with_study(plate)
         .refuses(&["run", "study.toml"], &["study.toml:16:", "section_m2 says nothing", "thickness_m"]);
     let bare = BAR.replace("[material]\nyoungs_modulus_gpa = 200\ndensity_kg_m3 = 7850\n", "");
-    Place::with_study(bare).refuses(&["run", "study.toml"], &["needs a material", "[material]"]);
+    Place::with_study(bare)
+        .refuses(&["run", "study.toml"], &["needs the material of its body", "[material]"]);
 }
 
 #[test]

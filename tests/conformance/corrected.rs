@@ -2,10 +2,13 @@
 
 use crate::bodies::{constant, field, model, rough, scene, still};
 use crate::holed::{hole, pierced, plate};
+use pd_verify::constraints::{Edge, Edges};
+use pd_verify::forces::family;
 use pd_verify::forces::surface::Correction;
+use pd_verify::lattice::Stencil;
 use pd_verify::ledger::Ledger;
 use pd_verify::march::March;
-use pd_verify::model::Model;
+use pd_verify::model::{Model, surface_factors};
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::plan::Plan;
 use pd_verify::scene::{Scene, StepRule, Time};
@@ -75,6 +78,60 @@ fn corrected_nodes_that_are_all_alike_store_what_the_bulk_does() {
     // The whole plate is not alike: the correction is no longer exact.
     let plate = Scene { holes: vec![], ..squares };
     assert!((stored(&plate) / bulk(&plate) - 1.0).abs() > 1e-3);
+}
+
+/// The largest 2V₀/(V_i + V_j) of a plate mirrored at x = 0 and y = 0 around a hole of `radius` spacings at that corner,
+/// over all its bonds, linear volumes.
+fn largest_by_hand(count: i32, m: f64, radius: f64) -> f64 {
+    let reach = m.ceil() as i32 + 1;
+    let place = |n: [i32; 2]| n.map(|n| f64::from(n) + 0.5);
+    let mirrored = |n: [i32; 2]| n.map(|n| if n < 0 { -1 - n } else { n }.min(2 * count - 1 - n));
+    let fraction =
+        |offset: [i32; 2]| (m + 0.5 - f64::from(offset[0]).hypot(f64::from(offset[1]))).clamp(0.0, 1.0);
+    let offsets = || (-reach..=reach).flat_map(move |x| (-reach..=reach).map(move |y| [x, y]));
+    let family = || offsets().filter(|&offset| offset != [0, 0] && fraction(offset) > 0.0);
+    // Both ends and all between them lie outside the circle about the corner.
+    let bonded = |node: [i32; 2], offset: [i32; 2]| {
+        let ([x, y], [dx, dy]) = (place(node), offset.map(f64::from));
+        let nearest = (-(x * dx + y * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
+        (x + nearest * dx).hypot(y + nearest * dy) > radius
+    };
+    let far = |node: [i32; 2], offset: [i32; 2]| [node[0] + offset[0], node[1] + offset[1]];
+    let volume =
+        |node: [i32; 2]| -> f64 { family().filter(|&offset| bonded(node, offset)).map(fraction).sum() };
+    let bulk: f64 = family().map(fraction).sum();
+    let nodes = (0..count).flat_map(|x| (0..count).map(move |y| [x, y]));
+    let of = |node: [i32; 2]| {
+        let bonds = family().filter(move |&offset| bonded(node, offset));
+        bonds.map(move |offset| 2.0 * bulk / (volume(node) + volume(mirrored(far(node, offset))))).collect()
+    };
+    nodes.flat_map(|node| -> Vec<f64> { of(node) }).fold(1.0, f64::max)
+}
+
+/// Bonds across a left or bottom mirror are owned by ghosts; the largest factor may be theirs.
+#[test]
+fn the_largest_factor_is_that_of_any_bond() {
+    for surface in [Correction::Volume, Correction::Energy] {
+        let whole = scene::<2>(constant(2.0, VolumeRule::Linear, false), [40, 40]);
+        let plate = Scene { edges: Edges([[Edge::MirrorOdd; 2]; 2]), surface, ..whole };
+        let at = |corner: [f64; 2]| {
+            let plate = Scene { holes: vec![hole(corner, 2.3)], ..plate.clone() };
+            let stencil = Stencil::<2>::new(plate.lattice).unwrap();
+            let grid = plate.grid(stencil.reach());
+            let family = family(&stencil, plate.modulus(), plate.spacing);
+            surface_factors(&plate, &family, &grid).unwrap().largest(&grid)
+        };
+        // The same plate seen from another side: nothing but the owners of the bonds differs, and the order of sums.
+        for corner in [[40.0, 0.0], [0.0, 40.0], [40.0, 40.0]] {
+            assert!((at([0.0, 0.0]) / at(corner) - 1.0).abs() < 1e-13, "{surface:?} {corner:?}");
+        }
+        if surface == Correction::Volume {
+            let (found, by_hand) = (at([0.0, 0.0]), largest_by_hand(40, 2.0, 2.3));
+            // Sums of two dozen fractions.
+            assert!((found / by_hand - 1.0).abs() < 1e-14, "{found} {by_hand}");
+            assert!((found - 1.549).abs() < 5e-4, "{found}");
+        }
+    }
 }
 
 /// ω_max from below, by powers of the stiffness.

@@ -57,6 +57,48 @@ fn effects_that_contradict_each_other_or_their_edge() {
     refuses(with(vec![effect::<1, BodyForce>(push)]), "effect[0].region.depth_m", "larger than the body");
 }
 
+/// Nodes that move as prescribed feel no load along that axis: one that acts on no others does nothing.
+#[test]
+fn loads_on_nodes_that_are_all_driven() {
+    let plate = scene::<2>(constant(2.0, VolumeRule::Linear, false), [200, 100]);
+    let with = |effects: [Arc<dyn Effect<2>>; 2]| Scene { effects: effects.to_vec(), ..plate.clone() };
+    let drive = |edge: &str, layers: f64, axis: &str| {
+        let region = json!({ "edge": edge, "depth_m": layers * plate.spacing });
+        let asked = json!({ "region": region, "axis": axis, "displacement_m": 1e-3, "history": step() });
+        effect::<2, PrescribedMotion>(asked)
+    };
+    let pull = |edge: &str| {
+        effect::<2, Traction>(json!({ "edge": edge, "axis": "y", "stress_pa": 1e6, "history": step() }))
+    };
+    let push = |edge: &str, layers: f64| {
+        let region = json!({ "edge": edge, "depth_m": layers * plate.spacing });
+        let asked = json!({ "region": region, "axis": "y", "density_n_m3": 1e6, "history": step() });
+        effect::<2, BodyForce>(asked)
+    };
+    for edge in ["left", "right", "bottom", "top"] {
+        refuses(with([drive(edge, 1.0, "y"), pull(edge)]), "effect[1].axis", "the traction does nothing");
+        refuses(with([pull(edge), drive(edge, 3.0, "y")]), "effect[0].axis", "the traction does nothing");
+        refuses(with([push(edge, 2.0), drive(edge, 2.0, "y")]), "effect[0].axis", "the body force does");
+        assert!(Plan::of(&with([drive(edge, 1.0, "x"), pull(edge)])).is_ok(), "{edge}, across");
+        assert!(
+            Plan::of(&with([drive(edge, 1.0, "y"), push(edge, 2.0)])).is_ok(),
+            "{edge}, one layer is free"
+        );
+    }
+    assert!(Plan::of(&with([drive("bottom", 1.0, "y"), pull("top")])).is_ok());
+}
+
+#[test]
+fn a_depth_without_an_edge() {
+    let push = |region: Value| {
+        let asked = json!({ "region": region, "axis": "x", "density_n_m3": 1.0, "history": step() });
+        Scene { effects: vec![effect::<1, BodyForce>(asked)], ..bar() }
+    };
+    refuses(push(json!({ "depth_m": 0.01 })), "effect[0].region", "edge is missing");
+    let both = json!({ "depth_m": 0.01, "from_m": [0.0], "to_m": [0.01] });
+    refuses(push(both), "effect[0].region", "an edge or a box, not both");
+}
+
 #[test]
 fn motions_against_mirrors_and_periods() {
     let plate = scene::<2>(constant(2.0, VolumeRule::Linear, false), [20, 16]);
