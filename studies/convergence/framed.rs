@@ -33,6 +33,7 @@ pub struct Framed {
 
 /// The strain, or the curvature times the side; the body is linear, so that it is of no account.
 pub const STRAIN: f64 = 1e-6;
+
 impl Field {
     /// The fields that are held, each by its components.
     fn all(self, side: f64, about: [f64; 2]) -> Vec<Vec<Initial<2>>> {
@@ -78,7 +79,7 @@ impl Framed {
             ..bare.clone()
         };
         let scenes: Vec<Scene<2>> = field.all(side, middle).into_iter().map(of).collect();
-        let plan = Plan::at_rest(&bare)?;
+        let plan = Plan::at_rest(&scenes[0])?;
         Ok(Framed { scenes, plan, held })
     }
 

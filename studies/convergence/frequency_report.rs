@@ -57,17 +57,22 @@ where
                 Some((read.k * wave.march.scene.spacing, phase(read.k, read.measured?, read)))
             });
             series.push(
-                Series::markers(format!("{}°", (100.0 * angle).round() / 100.0), marched.collect())
+                Series::markers(format!("{}°, marched", (100.0 * angle).round() / 100.0), marched.collect())
                     .slot(slot)
                     .marker(Marker::Circle),
             );
             let line = along.clone().next().map(|(wave, _)| curve(wave)).unwrap_or_default();
-            series.push(Series::line("", line).slot(slot).width(1.4));
+            let label = if slot == 0 { "lines: the relation by its sums" } else { "" };
+            series.push(Series::line(label, line).slot(slot).width(1.4));
         }
         let axis = Axis::linear("ω/(ck)");
         let mut panel = Lines::new(Axis::linear("kΔx"), axis, series);
         if D == 2 {
-            panel = panel.titled(branch.name());
+            panel = panel.titled(format!(
+                "{}: {}",
+                branch.name(),
+                first.map_or(String::new(), |lattice| lattice.to_string())
+            ));
         }
         panels.push(panel);
     }

@@ -16,13 +16,13 @@ pub fn extrapolated(values: &[(f64, f64)], before: usize) -> Result<Extrapolatio
 const LEAST_ORDER: f64 = 0.1;
 
 /// What three grids tell, or the evidence that they tell nothing; grids that diverge fail.
-fn told(name: &str, values: &[(f64, f64)], before: usize) -> Result<Extrapolation, Evidence> {
+fn told(name: &str, values: &[(f64, f64)], before: usize) -> Result<Extrapolation, Box<Evidence>> {
     match extrapolated(values, before) {
-        Err(none) => Err(untold(name, none, values)),
+        Err(none) => Err(Box::new(untold(name, none, values))),
         Ok(found) if found.order < LEAST_ORDER => {
             let note = format!("{name}: the grids diverge, order {:.3}", found.order);
             let error = error_of(Some(f64::INFINITY), note);
-            Err(Evidence { computed: Some(found.order), reference: Some(1.0), ..error })
+            Err(Box::new(Evidence { computed: Some(found.order), reference: Some(1.0), ..error }))
         }
         Ok(found) => Ok(found),
     }
@@ -41,7 +41,7 @@ fn untold(name: &str, none: NoOrder, values: &[(f64, f64)]) -> Evidence {
 /// How far the finest value is from the extrapolation of the grids before, over their band.
 pub fn band(name: &str, values: &[(f64, f64)]) -> Evidence {
     match told(name, values, 1) {
-        Err(evidence) => evidence,
+        Err(evidence) => *evidence,
         Ok(found) => {
             let finest = values[values.len() - 1].1;
             let half = found.gci * values[values.len() - 2].1.abs();
@@ -54,7 +54,7 @@ pub fn band(name: &str, values: &[(f64, f64)]) -> Evidence {
 /// The last change over the one that the three grids before predict.
 pub fn change(name: &str, values: &[(f64, f64)]) -> Evidence {
     match told(name, values, 1) {
-        Err(evidence) => evidence,
+        Err(evidence) => *evidence,
         Ok(found) => {
             let [.., (h, f), (finer, finest)] = values[..] else { return Evidence::default() };
             let predicted = (f - found.value) * (libm::pow(finer / h, found.order) - 1.0);
@@ -75,7 +75,7 @@ pub fn change(name: &str, values: &[(f64, f64)]) -> Evidence {
 /// The order of the three finest grids beside 1.
 pub fn order(name: &str, values: &[(f64, f64)]) -> Evidence {
     match told(name, values, 0) {
-        Err(evidence) => evidence,
+        Err(evidence) => *evidence,
         Ok(found) => Evidence {
             computed: Some(found.order),
             reference: Some(1.0),
@@ -89,7 +89,7 @@ pub fn order(name: &str, values: &[(f64, f64)]) -> Evidence {
 /// How far the extrapolation of the finest grids is from the exact answer, over its band.
 pub fn known(name: &str, values: &[(f64, f64)], exact: f64) -> Evidence {
     match told(name, values, 0) {
-        Err(evidence) => evidence,
+        Err(evidence) => *evidence,
         Ok(found) => {
             let half = found.gci * values[values.len() - 1].1.abs();
             let note = format!("{name}: {exact:.6} in {:.6} ± {half:.6}", found.value);

@@ -132,7 +132,7 @@ where
             let message = format!("a frame of {reach} nodes leaves little of {nodes:?}");
             return Err(Wrong::new("path", message, "take a smaller m or dx, or a larger side_m"));
         }
-        let plan = Plan::at_rest(&scene)?;
+        let plan = Plan::at_rest(&Scene { effects: effects(held, Vec::new(), Vec::new()), ..scene.clone() })?;
         Ok(Rested { scene, plan, held })
     }
 
@@ -156,12 +156,8 @@ where
         let modulus = level.scene.modulus();
         let force =
             self.fields(|k, a| Some(In::stiffness(medium, k, a)?.map(|force| HEIGHT * modulus * force)))?;
-        let mut effects: Vec<Arc<dyn Effect<D>>> =
-            vec![Arc::new(ForceField { fields: force, history: History::Step { start: 0.0 } })];
-        if level.held > 0 {
-            let fields = self.fields(|_, a| Some(a.map(|a| HEIGHT * a)))?;
-            effects.push(Arc::new(HeldFrame { layers: level.held, fields }));
-        }
+        let held = self.fields(|_, a| Some(a.map(|a| HEIGHT * a)))?;
+        let effects = effects(level.held, force, held);
         Some(Scene { effects, ..level.scene.clone() })
     }
 
@@ -180,6 +176,20 @@ where
         };
         Some(whole::nodes(&level.scene).filter(|node| level.free(*node)).map(at).collect())
     }
+}
+
+/// What acts on the body: its force, and where layers are held their displacement.
+fn effects<const D: usize>(
+    layers: usize,
+    force: Vec<Initial<D>>,
+    held: Vec<Initial<D>>,
+) -> Vec<Arc<dyn Effect<D>>> {
+    let mut effects: Vec<Arc<dyn Effect<D>>> =
+        vec![Arc::new(ForceField { fields: force, history: History::Step { start: 0.0 } })];
+    if layers > 0 {
+        effects.push(Arc::new(HeldFrame { layers, fields: held }));
+    }
+    effects
 }
 
 impl<const D: usize> Rested<D> {

@@ -241,7 +241,11 @@ fn logarithm(levels: &levels::Sequence) -> Evidence {
         computed: Some(power),
         reference: Some(0.0),
         error: Some(power.abs()),
-        note: format!("{}: error/δ grows by {} 1/m per factor e", levels.name, listed.join(", ")),
+        note: format!(
+            "{}: error/δ (per metre) grows by {} with each factor e of L/δ",
+            levels.name,
+            listed.join(", ")
+        ),
         ..Evidence::default()
     }
 }
