@@ -5,7 +5,7 @@ use super::path::{Weights, WeightsAsked};
 use super::theory;
 use super::volume_rules_report as report;
 use crate::bar::names;
-use crate::dispersion::curve::{Curve, Medium, reference_kernel, reference_rule};
+use crate::dispersion::curve::{Curve, Medium, reference_kernel, reference_lattice, reference_rule};
 use crate::dispersion::words::{BodyName, BranchName};
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of, value_of};
 use crate::subject::Subject;
@@ -56,6 +56,8 @@ pub struct Seen {
     /// By theory, at the same m: the smooth part, and what is irregular.
     pub smooth: Option<Vec<f64>>,
     pub irregular: Option<Vec<f64>>,
+    /// Whether the smooth part makes half of the error of the reference's lattice at the smallest m.
+    asymptotic: bool,
 }
 
 /// Largest m that is run.
@@ -272,15 +274,11 @@ impl Seen {
         Evidence { order, ..value_of(order.map(|order| order.value), Some(expected), note) }
     }
 
-    /// The same evidence, inconclusive where the smooth part of the law does not make half of the error at the smallest m.
+    /// The same evidence, inconclusive where the smooth part of the law does not yet make the error.
     fn regular(&self, found: Evidence) -> Evidence {
-        let smooth = self.smooth.as_ref().and_then(|smooth| smooth.first().copied());
-        let rest =
-            smooth.zip(self.errors.first()).map(|(smooth, (_, error))| (error - smooth).abs() / smooth.abs());
-        let outside = rest.is_none_or(|rest| rest.is_nan() || rest > 1.0);
         let reason =
-            || "not asymptotic: the smooth part does not make the error yet; take another kδ or larger m";
-        Evidence { outside: outside.then(|| reason().to_owned()), ..found }
+            "not asymptotic: the smooth part does not make the error yet; take another kδ or larger m";
+        Evidence { outside: (!self.asymptotic).then(|| reason.to_owned()), ..found }
     }
 
     /// How far apart the orders from m to 2m are.
@@ -332,9 +330,19 @@ impl VolumeRules {
             let angle = self.degrees.to_radians();
             lattice_points::irregular_part_of_linear(kernel, branch, self.k_horizon, angle, *m)
         };
+        let first = self.m[0];
+        let angle = self.degrees.to_radians();
+        let own = reference::lattice::plane(
+            reference_lattice(weights.lattice(first)),
+            self.k_horizon / first,
+            angle,
+        )[usize::from(self.branch == Branch::S)];
+        let own = (own.omega * first).powi(2) / exact - 1.0;
+        let asymptotic = smooth.is_some_and(|smooth| (own * first * first / smooth - 1.0).abs() < 1.0);
         let rough = weights.volume_rule == VolumeRule::Linear && !weights.calibrated;
         Ok(Seen {
             errors,
+            asymptotic,
             smooth: smooth.map(|smooth| self.m.iter().map(|m| smooth / (m * m)).collect()),
             irregular: rough.then(|| self.m.iter().map(irregular).collect()),
         })

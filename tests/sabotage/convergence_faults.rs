@@ -138,7 +138,7 @@ fn other_mirrors<const D: usize>(scene: &mut Scene<D>) {
 }
 
 fn soft_when_fine(scene: &mut Scene<2>) {
-    if scene.nodes[0] > 128 {
+    if scene.nodes[0] > 100 {
         soft(scene);
     }
 }
