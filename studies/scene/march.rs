@@ -66,7 +66,8 @@ pub struct MarchAsked {
     pub initial: Option<Vec<InitialAsked>>,
     /// What acts beside the bonds.
     pub effect: Option<Vec<EffectAsked>>,
-    /// What is seen.
+    /// What is seen; a plate may be watched by snapshots alone.
+    #[serde(default)]
     pub probe: Vec<ProbeAsked>,
     /// Of a plate: displacement and velocity of all nodes at chosen times.
     pub snapshot: Option<Vec<SnapshotAsked>>,
@@ -109,8 +110,9 @@ impl Asked for MarchAsked {
                 format!("{} scenes are asked for, at most {MAX_SCENES} are marched", lattices.len());
             return Err(Wrong::new("lattice", message, "shorten its lists, or split the case"));
         }
-        if self.probe.is_empty() {
-            return Err(Wrong::new("probe", "nobody watches this march", "add a [[case.probe]] table"));
+        if self.probe.is_empty() && self.snapshot.as_ref().is_none_or(Vec::is_empty) {
+            let help = "add a [[case.probe]] table, or a [[case.snapshot]] of a plate";
+            return Err(Wrong::new("", "nobody watches this march", help));
         }
         let effects: Vec<&Acting> = self.effect.iter().flatten().filter_map(EffectAsked::acting).collect();
         let mut scenes = Vec::new();

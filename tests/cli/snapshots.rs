@@ -146,3 +146,15 @@ fn snapshots_that_cannot_be_are_refused() {
         Place::with_study(text).refuses(&["run", "study.toml"], words);
     }
 }
+
+#[test]
+fn a_plate_may_be_watched_by_snapshots_alone_but_not_by_nobody() {
+    let probe = "[[case.probe]]\nname = \"row\"\nwatches = \"line\"\nthrough_mm = 11\n";
+    let alone = with(probe, "");
+    let place = Place::with_study(&alone);
+    place.run(&["run", "study.toml", "--strict", "--quiet"]).code(0);
+    assert!(place.path("reports/plate/push.field.002.vti").is_file());
+    let snapshot = "[[case.snapshot]]\nname = \"field\"\nat_us = [0, 4, 8]\n";
+    Place::with_study(alone.replace(snapshot, ""))
+        .refuses(&["run", "study.toml"], &["nobody watches this march"]);
+}
