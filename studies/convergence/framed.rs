@@ -84,8 +84,7 @@ impl Framed {
     }
 
     fn free(&self, node: [usize; 2]) -> bool {
-        let nodes = self.nodes();
-        (0..2).all(|axis| node[axis] >= self.held && node[axis] + self.held < nodes[axis])
+        whole::inside(node, self.held, self.nodes())
     }
 
     /// Nodes along each axis, frame included.

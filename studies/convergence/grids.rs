@@ -3,10 +3,8 @@
 
 use super::grids_report as report;
 use super::grids_said::{band, change, known, order};
-use super::path::{PathAsked, Refine, Sequence, WeightsAsked};
-use super::space::{In, Space};
+use super::path::{PathAsked, Sequence, WeightsAsked};
 use super::whole;
-use crate::bar::names;
 use crate::bar::pulsed::material;
 use crate::dispersion::sweep::distinct;
 use crate::dispersion::words::BodyName;
@@ -135,17 +133,12 @@ impl Asked for GridsAsked {
                 "take a plate, or asks = \"statics\"",
             ));
         }
-        if self.path.refine != Refine::Delta {
-            let message = "grids are those of δ → 0 at fixed m";
-            return Err(Wrong::new("path.refine", message, "take refine = \"delta\""));
-        }
         let (material, title) = (material(written)?, written.title.to_owned());
         let corrections =
             distinct(self.correction.clone().unwrap_or_else(|| one_or_many(Correction::None)).0);
-        let sequences = self.path.sequences(body, &self.weights)?;
-        let finest: Vec<_> = sequences.iter().map(|one| one.lattice(one.finest())).collect();
+        let sequences = whole::falling(&self.path, body, &self.weights)?;
         let mut tracks = Vec::new();
-        for (sequence, name) in sequences.iter().zip(names::names(&finest)) {
+        for (sequence, name) in &sequences {
             if sequence.levels.len() < GRIDS {
                 let message = format!("{} grids: three predict a fourth", sequence.levels.len());
                 return Err(Wrong::new(
@@ -153,10 +146,6 @@ impl Asked for GridsAsked {
                     message,
                     "give four grids or more, five to see orders agree",
                 ));
-            }
-            if !<In as Space<2>>::intended(sequence.lattice(sequence.finest())) {
-                let message = format!("{name}: its moduli are not the intended ones");
-                return Err(Wrong::new("weights.calibrated", message, "take calibrated = true"));
             }
             for &correction in &corrections {
                 let ready = |dx: f64| self.ready(material, body, sequence, correction, dx);

@@ -194,7 +194,7 @@ fn effects<const D: usize>(
 
 impl<const D: usize> Rested<D> {
     fn free(&self, node: [usize; D]) -> bool {
-        (0..D).all(|axis| node[axis] >= self.held && node[axis] + self.held < self.scene.nodes[axis])
+        whole::inside(node, self.held, self.scene.nodes)
     }
 }
 

@@ -1,11 +1,9 @@
 //! `asks = "surface"`: how free edges enter the order. A plate pulled at a free edge, at rest, with each surface correction:
 //! bonds missing within δ of an edge change the error by a share of order δ/L, and a corner of two free edges adds a logarithm.
 
-use super::path::{Level, PathAsked, Refine, Sequence, WeightsAsked};
-use super::space::{In, Space};
+use super::path::{Level, PathAsked, Sequence, WeightsAsked};
 use super::surface_report as report;
 use super::whole;
-use crate::bar::names;
 use crate::bar::pulsed::material;
 use crate::dispersion::sweep::distinct;
 use crate::dispersion::words::BodyName;
@@ -100,24 +98,14 @@ impl Asked for SurfaceAsked {
                 "take a plate, or asks = \"statics\"",
             ));
         }
-        if self.path.refine != Refine::Delta {
-            let message = "the surface effect is ordered by δ at fixed m";
-            return Err(Wrong::new("path.refine", message, "take refine = \"delta\""));
-        }
         let (material, title) = (material(written)?, written.title.to_owned());
         let corrections =
             distinct(self.correction.clone().unwrap_or_else(|| one_or_many(Correction::None)).0);
-        let sequences = self.path.sequences(body, &self.weights)?;
-        let finest: Vec<_> = sequences.iter().map(|one| one.lattice(one.finest())).collect();
+        let sequences = whole::falling(&self.path, body, &self.weights)?;
         let top = self.top.unwrap_or_default();
         let above = if top == Top::Free { Edge::Free } else { Edge::MirrorOdd };
         let mut tracks = Vec::new();
-        for (sequence, name) in sequences.iter().zip(names::names(&finest)) {
-            if !<In as Space<2>>::intended(sequence.lattice(sequence.finest())) {
-                let message =
-                    format!("{name}: its moduli are not the intended ones, so that its error does not fall");
-                return Err(Wrong::new("weights.calibrated", message, "take calibrated = true"));
-            }
+        for (sequence, name) in &sequences {
             for &correction in &corrections {
                 let ready = |level: &Level| {
                     let lattice = sequence.lattice(*level);

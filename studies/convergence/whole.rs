@@ -1,8 +1,11 @@
 //! The whole body at the end of a march: how studies look at it, and its nodes in the order in which it is seen.
 
-use super::path::{Level, Sequence};
+use super::path::{Level, PathAsked, Refine, Sequence, WeightsAsked};
+use super::space::{In, Space};
+use crate::bar::names;
 use crate::dispersion::curve::reference_lattice;
 use crate::question::Effort;
+use pd_verify::material::Body;
 use pd_verify::plan::Plan;
 use pd_verify::record::Record;
 use pd_verify::scene::{Scene, StepRule, Wrong};
@@ -58,6 +61,35 @@ pub fn stepped<const D: usize>(
         Ok((made, plan))
     };
     sequence.levels.iter().map(level).collect()
+}
+
+/// Whether a node lies within a frame of so many held layers.
+pub fn inside<const D: usize>(node: [usize; D], held: usize, nodes: [usize; D]) -> bool {
+    (0..D).all(|axis| node[axis] >= held && node[axis] + held < nodes[axis])
+}
+
+/// Refinements of plates in δ with their names, where the moduli are the intended ones: else their error does not fall.
+pub fn falling(
+    path: &PathAsked,
+    body: Body,
+    weights: &WeightsAsked,
+) -> Result<Vec<(Sequence, String)>, Wrong> {
+    if path.refine != Refine::Delta {
+        let message = "what is free at its edges is refined in δ at fixed m";
+        return Err(Wrong::new("path.refine", message, "take refine = \"delta\""));
+    }
+    let sequences = path.sequences(body, weights)?;
+    let finest: Vec<_> = sequences.iter().map(|one| one.lattice(one.finest())).collect();
+    let named: Vec<(Sequence, String)> = sequences.into_iter().zip(names::names(&finest)).collect();
+    let intended = |one: &Sequence| <In as Space<2>>::intended(one.lattice(one.finest()));
+    match named.iter().find(|(sequence, _)| !intended(sequence)) {
+        None => Ok(named),
+        Some((_, name)) => {
+            let message =
+                format!("{name}: its moduli are not the intended ones, so that its error does not fall");
+            Err(Wrong::new("weights.calibrated", message, "take calibrated = true"))
+        }
+    }
 }
 
 /// The work of finding a body at rest: some six iterations of conjugate gradients for each node of a side.
