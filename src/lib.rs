@@ -96,5 +96,6 @@ pub mod record;
 pub mod report;
 pub mod scene;
 pub mod statics;
+pub mod stress_intensity;
 pub mod table;
 pub mod verdict;
