@@ -10,12 +10,15 @@
 //! |---|---|---|
 //! | [`two_point`] | the opening at nodes behind the tip, extrapolated to it | Chan, Tuba, Wilson 1970 |
 //! | [`williams`] | eigenfunctions fitted to an annulus, with inertia | Williams 1957 |
+//! | [`interaction_integral`] | a domain integral with inertia | Yau, Wang, Corten 1980; Shih et al. 1986 |
 
 pub mod companion;
 pub mod eigenfunction;
 mod elastic;
 pub mod fit;
 mod functional;
+pub mod gradient;
+pub mod interaction_integral;
 mod sites;
 #[cfg(test)]
 mod synthetic;
