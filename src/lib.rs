@@ -21,6 +21,7 @@
 //! | u, d | displacement, its increment over a step | m | [`march`] |
 //! | Δt | time step | s | [`plan`] |
 //! | k, ω | wavenumber, angular frequency | 1/m, 1/s | [`dispersion`] |
+//! | K_I, K_II | stress intensity factors | Pa√m | [`stress_intensity`] |
 //! | v, c_d, c_s | speed of waves in a bar, dilatational, shear | m/s | [`material`] |
 //!
 //! All quantities are SI; dispersion is computed in units of the spacing (or the horizon) and the wave's own speed.

@@ -47,21 +47,11 @@ impl Fit {
         if nodes.len() < unknowns {
             return Err(Unreadable::TooFewNodes { nodes: nodes.len(), unknowns });
         }
-        // Columns of length one: radii and moduli do not enter the condition number.
-        let lengths: Vec<f64> = columns.iter().map(|(_, field)| length(field)).collect();
-        let matrix = DMatrix::from_fn(2 * nodes.len(), unknowns, |row, column| {
-            columns[column].1[row / 2][row % 2] / lengths[column]
-        });
-        let qr = matrix.qr();
-        let svd = qr.r().svd(true, true);
-        let (largest, smallest) = (svd.singular_values.max(), svd.singular_values.min());
-        let condition = largest / smallest;
-        if condition.is_nan() || condition >= WORST_CONDITION {
-            return Err(Unreadable::RankDeficient { unknowns, condition });
-        }
-        let inverse = svd.pseudo_inverse(0.0).expect("both sides were asked for") * qr.q().transpose();
+        let matrix =
+            DMatrix::from_fn(2 * nodes.len(), unknowns, |row, column| columns[column].1[row / 2][row % 2]);
+        let (inverse, condition) = least_squares(matrix)?;
         let amplitude = |unknown: usize| {
-            let weight = |row: usize| inverse[(unknown, row)] / lengths[unknown];
+            let weight = |row: usize| inverse[(unknown, row)];
             let displacement =
                 (0..nodes.len()).map(|node| [weight(2 * node), weight(2 * node + 1)]).collect();
             Functional { nodes: nodes.to_vec(), displacement, ..Functional::default() }
@@ -157,6 +147,26 @@ impl Fit {
         }
         length(&left) / shape
     }
+}
+
+/// Weights of data (columns) on least-squares unknowns (rows), and the condition number of the problem, its columns scaled
+/// to length one, so that radii and moduli do not enter it.
+pub(super) fn least_squares(mut matrix: DMatrix<f64>) -> Result<(DMatrix<f64>, f64), Unreadable> {
+    let lengths: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
+    for (mut column, length) in matrix.column_iter_mut().zip(&lengths) {
+        column /= *length;
+    }
+    let qr = matrix.qr();
+    let svd = qr.r().svd(true, true);
+    let condition = svd.singular_values.max() / svd.singular_values.min();
+    if condition.is_nan() || condition >= WORST_CONDITION {
+        return Err(Unreadable::RankDeficient { unknowns: lengths.len(), condition });
+    }
+    let mut inverse = svd.pseudo_inverse(0.0).expect("both sides were asked for") * qr.q().transpose();
+    for (mut row, length) in inverse.row_iter_mut().zip(&lengths) {
+        row /= *length;
+    }
+    Ok((inverse, condition))
 }
 
 fn take(from: &mut [[f64; 2]], amplitude: f64, field: &[[f64; 2]]) {

@@ -11,6 +11,9 @@
 //! | [`two_point`] | the opening at nodes behind the tip, extrapolated to it | Chan, Tuba, Wilson 1970 |
 //! | [`williams`] | eigenfunctions fitted to an annulus, with inertia | Williams 1957 |
 //! | [`interaction_integral`] | a domain integral with inertia | Yau, Wang, Corten 1980; Shih et al. 1986 |
+//! | [`stress_fit`] | stress by differences ahead of the tip | Wildman, Gazonas 2014 |
+//! | [`running`] | the same as `williams` where the tip runs | Freund 1990, ch. 4 |
+//! | [`spread`] | how much K depends on radii, terms and method | |
 
 pub mod companion;
 pub mod eigenfunction;
@@ -19,7 +22,10 @@ pub mod fit;
 mod functional;
 pub mod gradient;
 pub mod interaction_integral;
+pub mod running;
 mod sites;
+pub mod spread;
+pub mod stress_fit;
 #[cfg(test)]
 mod synthetic;
 pub mod two_point;

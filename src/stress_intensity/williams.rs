@@ -172,9 +172,9 @@ mod tests {
     fn rigid_motion_is_no_stress() {
         let tip = tip();
         let u = sampled(&tip.sites, |x| [1.0 - 0.5 * x[1], -2.0 + 0.5 * x[0]]);
-        // Rounding of 2 m as an opening: µ · 2 m · 1e-16/√(0.03 m) ≈ 1e-4 Pa√m.
+        // Rounding of 2 m as an opening, µ · 2 m · 1e-16/√(0.03 m) ≈ 1e-4 Pa√m, summed at random over 10⁴ numbers.
         let k = Williams::over(RING, 5).reading(&tip, &ELASTIC).unwrap().at(&u, &[]);
-        assert!(k[0].abs().max(k[1].abs()) < 1e-3, "{k:?}");
+        assert!(k[0].abs().max(k[1].abs()) < 1e-2, "{k:?}");
     }
 
     #[test]
