@@ -110,6 +110,50 @@ impl<'m, const D: usize> March<'m, D> {
         velocity
     }
 
+    /// The accelerations in m/s² of the nodes whose first components lie at `places`, (u(n+1) − 2u(n) + u(n−1))/Δt² by a
+    /// trial of the next step that changes nothing: of a node that is free to move F/ρ, whatever its motion before, so also
+    /// at t = 0. Driven nodes have no step before the first: at t = 0 they take the acceleration of the first step's end.
+    /// Forces are evaluated on the pieces of work that hold the places.
+    pub fn accelerations(&self, places: &[usize]) -> Vec<[f64; D]> {
+        let (model, grid) = (self.model, &self.model.grid);
+        let mut wanted = vec![false; grid.pieces()];
+        places.iter().for_each(|place| wanted[(place - grid.body().start) / grid.piece()] = true);
+        let (now, mut force) = (self.now(), grid.field());
+        model.each_piece(&mut force, |piece, sum| {
+            if wanted[piece] {
+                model.force_on(&now, piece, sum);
+            }
+        });
+        let mut acceleration = grid.field();
+        accelerate(model, 1.0, &force, &mut acceleration);
+        self.driven_accelerations(&mut acceleration);
+        let of = |place: &usize| std::array::from_fn(|axis| acceleration[place + axis * grid.stride()]);
+        places.iter().map(of).collect()
+    }
+
+    /// Puts the accelerations of driven nodes into a field of accelerations.
+    fn driven_accelerations(&self, acceleration: &mut [f64]) {
+        if self.model.constraints.is_empty() {
+            return;
+        }
+        let square = self.time_step * self.time_step;
+        let at = |step: u64| {
+            let (time, mut increment) = (step as f64 * self.time_step, self.increment.clone());
+            for constraint in &self.model.constraints {
+                constraint.hold(time, &self.displacement, &mut increment);
+            }
+            increment
+        };
+        let next = at(self.step + 1);
+        let second = (self.step == 0).then(|| at(2));
+        for &place in self.model.constraints.iter().flat_map(|constraint| constraint.places()) {
+            acceleration[place] = match &second {
+                Some(second) => (second[place] - 2.0 * next[place]) / square,
+                None => (next[place] - self.increment[place]) / square,
+            };
+        }
+    }
+
     /// The model that moves.
     pub fn model(&self) -> &'m Model<D> {
         self.model

@@ -96,10 +96,13 @@ impl<const D: usize> Model<D> {
 
     /// The whole right-hand side ρü, in N/m³, into `field`.
     pub fn force(&self, now: &Now<'_>, field: &mut [f64]) {
-        self.each_piece(field, |piece, sum| {
-            sum.fill(0.0);
-            self.forces.iter().for_each(|force| force.add(now, piece, sum));
-        });
+        self.each_piece(field, |piece, sum| self.force_on(now, piece, sum));
+    }
+
+    /// The same on one piece.
+    pub(crate) fn force_on(&self, now: &Now<'_>, piece: usize, sum: &mut [f64]) {
+        sum.fill(0.0);
+        self.forces.iter().for_each(|force| force.add(now, piece, sum));
     }
 
     /// Energy held by the forces that have a potential, in J.

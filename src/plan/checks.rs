@@ -4,11 +4,14 @@ use super::counts::Counts;
 use crate::constraints::Edge;
 use crate::grid::Grid;
 use crate::lattice::{Stencil, Unusable};
-use crate::record::{corners, line};
+use crate::record::{Patch, corners, line};
 use crate::scene::{Hole, Rotations, Scene, Watch, Wrong};
 
 /// A block larger than this is a slip of the pen.
 const MAX_NODES: usize = 1 << 28;
+
+/// What one run may hold of patches: more is a slip of the pen.
+const MAX_PATCH_BYTES: u64 = 4 << 30;
 
 /// A share of a probe's place that is rounding.
 const NO_SHARE: f64 = 1e-9;
@@ -76,6 +79,24 @@ pub fn probes<const D: usize>(scene: &Scene<D>, grid: &Grid<D>) -> Result<(), Wr
                 let message = format!("the probe \"{}\" runs through a hole from end to end", probe.name);
                 return Err(Wrong::new(format!("{path}.through_m"), message, "move it beside the hole"));
             }
+            Watch::Patch { from, to } => {
+                for (key, corner) in [("from_m", from), ("to_m", to)] {
+                    if let Some(axis) = (0..D).find(|&axis| outside(axis, corner[axis])) {
+                        return refuse(key, corner[axis], axis);
+                    }
+                }
+                if Patch::of(grid, from, to).each().all(|node| !grid.has(node)) {
+                    let message = format!(
+                        "the patch \"{}\" from {} to {} holds no node",
+                        probe.name,
+                        place(from),
+                        place(to)
+                    );
+                    let help =
+                        "widen it to hold the centre of a cell, from the lower corner to the upper one";
+                    return Err(Wrong::new(format!("{path}.to_m"), message, help));
+                }
+            }
             _ => {}
         }
         if matches!(probe.watch, Watch::Strain { .. }) && (D != 1 || scene.nodes[0] < 2) {
@@ -92,6 +113,27 @@ pub fn probes<const D: usize>(scene: &Scene<D>, grid: &Grid<D>) -> Result<(), Wr
         }
     }
     Ok(())
+}
+
+/// Bytes that patches will hold of their looks in a march of so many steps.
+pub fn patches<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, steps: u64) -> Result<u64, Wrong> {
+    let mut total = 0_u64;
+    for (index, probe) in scene.probes.iter().enumerate() {
+        let Watch::Patch { from, to } = probe.watch else { continue };
+        let look = (2 * D * size_of::<f64>()) as u64 * Patch::of(grid, from, to).count() as u64;
+        let looks = steps.div_ceil(probe.every) + 1;
+        total = total.saturating_add(look.saturating_mul(looks));
+        if total > MAX_PATCH_BYTES {
+            let message = format!(
+                "the patches would hold {:.1} GiB, at most {} GiB are held",
+                total as f64 / (1_u64 << 30) as f64,
+                MAX_PATCH_BYTES >> 30
+            );
+            let help = "look less often (every_steps), or at a smaller patch";
+            return Err(Wrong::new(format!("probe[{index}].every_steps"), message, help));
+        }
+    }
+    Ok(total)
 }
 
 /// Whether the nodes between which a point is seen are there.

@@ -32,6 +32,8 @@ pub struct Plan {
     pub bytes_per_node: f64,
     /// What the snapshots of the whole body hold.
     pub snapshot_bytes: u64,
+    /// What patch probes hold of all their looks.
+    pub patch_bytes: u64,
     pub time_step_s: f64,
     /// Above 1 leapfrog is unstable.
     pub time_step_over_limit: f64,
@@ -90,6 +92,7 @@ impl Plan {
             band_nodes: counts.band,
             bonds: counts.ends / 2,
             snapshot_bytes: snapshot::bytes(scene, time_step, steps)?,
+            patch_bytes: checks::patches(scene, &grid, steps)?,
             bytes_per_node: (counts.bytes + terms.bytes) as f64 / nodes as f64,
             time_step_s: time_step,
             time_step_over_limit: over_limit,
@@ -97,6 +100,12 @@ impl Plan {
             node_updates: nodes.saturating_mul(steps),
             bond_updates: (counts.ends / 2).saturating_mul(steps),
         })
+    }
+
+    /// The same plan for the same scene where only the pace of its probes has changed.
+    pub fn paced<const D: usize>(mut self, scene: &Scene<D>) -> Result<Self, Wrong> {
+        self.patch_bytes = checks::patches(scene, &scene.grid(0), self.steps)?;
+        Ok(self)
     }
 
     /// The part of the nodes that a list serves beside the operator.

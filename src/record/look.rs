@@ -1,6 +1,6 @@
-//! What a probe sees of a body: displacements and strains between nodes, momentum, the ledger's accounts.
+//! What a probe sees of a body: displacements and strains between nodes, patches of nodes, momentum, the ledger's accounts.
 
-use super::{Column, Trace};
+use super::{Column, Patch, Trace};
 use crate::constraints::{Edge, Edges};
 use crate::grid::Grid;
 use crate::ledger::Ledger;
@@ -33,23 +33,21 @@ pub(super) fn book<const D: usize>(
 
 /// An empty trace with its columns.
 pub(super) fn trace<const D: usize>(probe: &Probe<D>, grid: &Grid<D>) -> Trace {
-    let components = ["displacement_x", "displacement_y"];
-    let displacement = |at: [f64; D]| {
-        (0..D).map(move |c| Column {
-            quantity: components[c],
-            unit: "m",
-            at: Some(at.to_vec()),
-            removed: false,
-        })
+    let vector = |at: [f64; D], names: [&'static str; 2], unit| {
+        let at = Some(at.to_vec());
+        (0..D).map(move |c| Column { quantity: names[c], unit, at: at.clone(), removed: false })
     };
-    let of_node = |node| {
-        displacement(grid.position(node)).map(move |column| Column { removed: !grid.has(node), ..column })
-    };
+    let displacement = |at| vector(at, ["displacement_x", "displacement_y"], "m");
+    let acceleration = |at| vector(at, ["acceleration_x", "acceleration_y"], "m/s²");
+    let missing = |node| move |column| Column { removed: !grid.has(node), ..column };
+    let of_node = |node| displacement(grid.position(node)).map(missing(node));
+    let of_both = |node| of_node(node).chain(acceleration(grid.position(node)).map(missing(node)));
     let whole = |quantity, unit| Column { quantity, unit, at: None, removed: false };
     let columns = match probe.watch {
         Watch::Point { at } => displacement(at).collect(),
         Watch::Strain { at } => vec![Column { at: Some(vec![at]), ..whole("strain", "1") }],
         Watch::Line { along, through } => line(grid, along, through).flat_map(of_node).collect(),
+        Watch::Patch { from, to } => Patch::of(grid, from, to).each().flat_map(of_both).collect(),
         Watch::Energies => {
             let names = ["kinetic", "elastic", "work_of_loads", "work_of_damping", "work_of_driven_nodes"];
             names.map(|name| whole(name, "J")).to_vec()
@@ -71,6 +69,7 @@ pub(super) fn look<const D: usize>(probe: &Probe<D>, march: &March<'_, D>, trace
             let row = line(grid, along, through).flat_map(of).collect();
             (march.time(), row)
         }
+        Watch::Patch { from, to } => (march.time(), patch(march, Patch::of(grid, from, to))),
         Watch::Momentum if march.step() > 0 => (march.time() - half, momentum(march).to_vec()),
         Watch::Momentum | Watch::Energies => return,
     };
@@ -81,6 +80,22 @@ pub(super) fn look<const D: usize>(probe: &Probe<D>, march: &March<'_, D>, trace
 fn displacement_of<const D: usize>(grid: &Grid<D>, u: &[f64], node: [isize; D]) -> [f64; D] {
     let place = grid.place(node);
     std::array::from_fn(|axis| u[place + axis * grid.stride()])
+}
+
+/// Displacement and acceleration of each cell of a patch; NaN where no node stands.
+fn patch<const D: usize>(march: &March<'_, D>, patch: Patch<D>) -> Vec<f64> {
+    let grid = &march.model().grid;
+    let nodes = || patch.each().filter(|node| grid.has(*node));
+    let places: Vec<usize> = nodes().map(|node| grid.place(node)).collect();
+    let mut accelerations = march.accelerations(&places).into_iter();
+    let mut row = Vec::with_capacity(2 * D * patch.count());
+    for node in patch.each() {
+        let seen = grid.has(node).then(|| accelerations.next()).flatten();
+        let acceleration = seen.unwrap_or([f64::NAN; D]);
+        let displacement = seen.map_or([f64::NAN; D], |_| displacement_of(grid, march.displacement(), node));
+        row.extend(displacement.into_iter().chain(acceleration));
+    }
+    row
 }
 
 /// The cells of a line probe; in a hole they are without nodes.

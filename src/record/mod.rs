@@ -1,8 +1,10 @@
 //! A run from a scene to what was seen of it: plan, model, march to the next look, look.
 
 mod look;
+mod patch;
 mod snapshot;
 
+pub use patch::Patch;
 pub use snapshot::Snapshot;
 
 use crate::ledger::Ledger;

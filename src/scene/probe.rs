@@ -20,6 +20,9 @@ pub enum Watch<const D: usize> {
     Strain { at: f64 },
     /// Displacements of all nodes along an axis: a bar's nodes, or the row or column of a plate nearest to `through` in m.
     Line { along: usize, through: f64 },
+    /// Displacement and acceleration of all nodes whose centres lie in a box, in m and m/s²: row by row along x, for each
+    /// node first the displacement along each axis, then the acceleration.
+    Patch { from: [f64; D], to: [f64; D] },
     /// Kinetic and elastic energy and the work done on the body, half a step after each look.
     Energies,
     /// Momentum, half a step before each look.

@@ -151,6 +151,7 @@ mod tests {
                 bonds: 3000,
                 bytes_per_node: 48.0,
                 snapshot_bytes: 0,
+                patch_bytes: 0,
                 time_step_s: 1e-7,
                 time_step_over_limit: 0.9,
                 steps: 2000,

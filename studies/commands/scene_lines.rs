@@ -50,9 +50,13 @@ impl SceneLines {
         if more > 0 {
             lines.push(Line::Text(format!("  and {more} more; --json has all")));
         }
-        let bytes: u64 = scenes.iter().map(|scene| scene.snapshot_bytes).sum();
-        if bytes > 0 {
-            lines.push(Line::Text(format!("  snapshots:   {:.3} MB in memory", bytes as f64 / 1e6)));
+        let total = |of: fn(&Planned) -> u64| scenes.iter().map(of).sum::<u64>();
+        let held = [
+            ("snapshots:", total(|scene| scene.snapshot_bytes)),
+            ("patches:", total(|scene| scene.patch_bytes)),
+        ];
+        for (what, bytes) in held.into_iter().filter(|(_, bytes)| *bytes > 0) {
+            lines.push(Line::Text(format!("  {what:<12} {:.3} MB in memory", bytes as f64 / 1e6)));
         }
         let names = shown.iter().map(|scene| scene.name.chars().count());
         let width = names.max().unwrap_or(0).clamp("scene".len(), WIDEST);
@@ -166,6 +170,7 @@ mod tests {
             bonds: 3000,
             bytes_per_node: 56.0,
             snapshot_bytes: 0,
+            patch_bytes: 0,
             time_step_s: 1.25e-7,
             time_step_over_limit: 0.9,
             steps: 4000,

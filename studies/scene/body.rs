@@ -101,6 +101,7 @@ pub fn scene<const D: usize>(
         let booked = plan.steps.div_ceil(1000).max(1);
         probe.every = asked.probe.get(index).map_or(booked, |asked| asked.every(plan.steps));
     }
+    let plan = plan.paced(&scene)?;
     Ok((scene, plan))
 }
 

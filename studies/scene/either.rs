@@ -3,7 +3,7 @@
 use crate::subject::Subject;
 use pd_verify::lattice::{Lattice, Stencil};
 use pd_verify::plan::Plan;
-use pd_verify::record::{Failure, Record};
+use pd_verify::record::{Failure, Patch, Record};
 use pd_verify::scene::{Operator, Probe, Scene, StepRule, Time, Watch, Wrong};
 
 /// One of the two.
@@ -51,11 +51,11 @@ impl Either {
         }
     }
 
-    /// Nodes along an axis.
-    pub fn nodes(&self, axis: usize) -> usize {
+    /// At how many places a probe looks.
+    pub fn places(&self, probe: &str) -> usize {
         match self {
-            Self::Bar(scene) => scene.nodes.get(axis).copied().unwrap_or(1),
-            Self::Plate(scene) => scene.nodes[axis],
+            Self::Bar(scene) => places(scene, probe),
+            Self::Plate(scene) => places(scene, probe),
         }
     }
 
@@ -73,6 +73,14 @@ impl Either {
             Self::Bar(scene) => (bonds(scene), scene.nodes[0]),
             Self::Plate(scene) => (bonds(scene), scene.nodes[0].max(scene.nodes[1])),
         }
+    }
+}
+
+fn places<const D: usize>(scene: &Scene<D>, probe: &str) -> usize {
+    match scene.probes.iter().find(|other| other.name == probe).map(|probe| &probe.watch) {
+        Some(&Watch::Line { along, .. }) => scene.nodes[along],
+        Some(&Watch::Patch { from, to }) => Patch::of(&scene.grid(0), from, to).count(),
+        _ => 1,
     }
 }
 

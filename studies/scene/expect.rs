@@ -66,6 +66,10 @@ impl ExpectAsked {
             let message = format!("no probe is called \"{}\"", self.probe);
             return Err(Wrong::new("probe", message, did_you_mean(&self.probe, names)));
         };
+        if probe.watches == WatchName::Patch {
+            let message = format!("the patch \"{}\" is seen at many places", self.probe);
+            return Err(Wrong::new("probe", message, "expect something of a point or a line there"));
+        }
         let seen = quantities(probe.watches, dimension);
         if !seen.contains(&self.quantity.as_str()) {
             let message = format!("the probe \"{}\" does not see \"{}\"", self.probe, self.quantity);

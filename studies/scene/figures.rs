@@ -26,7 +26,10 @@ struct Seen<'a> {
 /// The figures of a case, in the order of its probes.
 pub fn figures(title: &str, records: &[&Record], place: &Place) -> Vec<Figure> {
     let Some(first) = records.first() else { return Vec::new() };
-    let probes = first.traces.iter().map(|trace| &trace.probe).filter(|probe| asked_for(probe));
+    // A patch is data for whoever reads the table: no one would read a curve for each of its nodes.
+    let is_patch = |trace: &Trace| trace.columns.iter().any(|column| column.quantity == "acceleration_x");
+    let drawn = first.traces.iter().filter(|trace| !is_patch(trace));
+    let probes = drawn.map(|trace| &trace.probe).filter(|probe| asked_for(probe));
     let moved: Vec<f64> = records.iter().map(|record| largest_displacement(record)).collect();
     let of = |probe: &String| {
         let seen = records.iter().zip(&moved).filter_map(|(record, &displacement)| {

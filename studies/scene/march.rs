@@ -10,7 +10,7 @@ use super::figures::figures;
 use super::march_claims::{claims, evidence, why};
 use super::operators::Twice;
 use super::probe_table::{MAX_ROWS, table};
-use super::probes::{ProbeAsked, WatchName, looks, quantities};
+use super::probes::{ProbeAsked, looks, quantities};
 use super::snapshots::{self, SnapshotAsked, check_files};
 use crate::bar::names::differences;
 use crate::dispersion::sweep::LatticeSweep;
@@ -148,8 +148,7 @@ impl MarchAsked {
     /// Refuses a table that nobody could open.
     fn check_rows(&self, scenes: &[Marched], dimension: usize) -> Result<(), Wrong> {
         let of = |one: &Marched, probe: &ProbeAsked| {
-            let places = if probe.watches == WatchName::Line { one.scene.nodes(probe.axis()) } else { 1 };
-            let columns = (places * quantities(probe.watches, dimension).len()) as u64;
+            let columns = (one.scene.places(&probe.name) * quantities(probe.watches, dimension).len()) as u64;
             looks(probe.watches, probe.every(one.plan.steps), &one.plan).2.saturating_mul(columns)
         };
         let each = self.probe.iter().map(|probe| scenes.iter().map(|one| of(one, probe)).sum::<u64>());

@@ -16,6 +16,8 @@ pub enum WatchName {
     Strain,
     /// Displacements along a row or a column of nodes.
     Line,
+    /// Displacements and accelerations of all nodes in a box.
+    Patch,
     /// Kinetic and elastic energy, and the work done on the body.
     Energies,
     Momentum,
@@ -34,8 +36,12 @@ pub struct ProbeAsked {
     pub along: Option<Axis>,
     /// Of `line` in a plate: where it crosses the other axis.
     pub through_m: Option<f64>,
-    /// Steps from one look to the next. Default: 1, beyond 2000 steps such that there are about 500 looks; a line is
-    /// seen at t = 0 and up to 5 times more.
+    /// Of `patch`: the lower corner of the box, one number per axis.
+    pub from_m: Option<OneOrMany<f64>>,
+    /// Its upper corner.
+    pub to_m: Option<OneOrMany<f64>>,
+    /// Steps from one look to the next. Default: 1, beyond 2000 steps such that there are about 500 looks; a line and a
+    /// patch are seen at t = 0 and up to 5 times more.
     pub every_steps: Option<u64>,
 }
 
@@ -45,8 +51,12 @@ impl ProbeAsked {
         check_name(&self.name)?;
         self.check_keys::<D>()?;
         let watch = match self.watches {
-            WatchName::Point => Watch::Point { at: self.place(size)? },
-            WatchName::Strain => Watch::Strain { at: self.place(size)?[0] },
+            WatchName::Point => Watch::Point { at: place("at_m", &self.at_m, size)? },
+            WatchName::Strain => Watch::Strain { at: place("at_m", &self.at_m, size)?[0] },
+            WatchName::Patch => Watch::Patch {
+                from: place("from_m", &self.from_m, size)?,
+                to: place("to_m", &self.to_m, size)?,
+            },
             WatchName::Energies => Watch::Energies,
             WatchName::Momentum => Watch::Momentum,
             WatchName::Line => {
@@ -56,17 +66,21 @@ impl ProbeAsked {
                 Watch::Line { along, through: snapped(self.through_m.unwrap_or(0.0), other) }
             }
         };
-        Ok(Probe { name: self.name.clone(), watch, every: self.every_steps.unwrap_or(1) })
+        // Until the steps are known it looks twice, so that no patch is too large before its pace is settled.
+        Ok(Probe { name: self.name.clone(), watch, every: self.every_steps.unwrap_or(u64::MAX) })
     }
 
     /// Keys that this probe needs, and those that say nothing about it.
     fn check_keys<const D: usize>(&self) -> Result<(), Wrong> {
         let placed = matches!(self.watches, WatchName::Point | WatchName::Strain);
         let line = self.watches == WatchName::Line;
+        let patch = self.watches == WatchName::Patch;
         let keys = [
             ("at_m", self.at_m.is_some(), placed, placed),
             ("along", self.along.is_some(), line, false),
             ("through_m", self.through_m.is_some(), line && D == 2, line && D == 2),
+            ("from_m", self.from_m.is_some(), patch, patch),
+            ("to_m", self.to_m.is_some(), patch, patch),
         ];
         if let Some((key, ..)) = keys.iter().find(|(_, given, used, _)| *given && !used) {
             let message = format!("{key} says nothing about this probe");
@@ -78,15 +92,6 @@ impl ProbeAsked {
         }
     }
 
-    fn place<const D: usize>(&self, size: [f64; D]) -> Result<[f64; D], Wrong> {
-        let given = self.at_m.as_ref().map_or(&[][..], |at| &at.0);
-        let at: [f64; D] = given.try_into().map_err(|_| {
-            let message = format!("{} number(s) are no place in this body", given.len());
-            Wrong::new("at_m", message, format!("give {D}, one per axis; one probe for each place"))
-        })?;
-        Ok(std::array::from_fn(|axis| snapped(at[axis], size[axis])))
-    }
-
     /// The axis along which a line runs.
     pub fn axis(&self) -> usize {
         usize::from(self.along == Some(Axis::Y))
@@ -95,7 +100,7 @@ impl ProbeAsked {
     /// Steps from one look to the next.
     pub fn every(&self, steps: u64) -> u64 {
         let chosen = match self.watches {
-            WatchName::Line => steps.div_ceil(5).max(1),
+            WatchName::Line | WatchName::Patch => steps.div_ceil(5).max(1),
             _ if steps <= 2000 => 1,
             _ => steps.div_ceil(500),
         };
@@ -113,6 +118,21 @@ pub fn check_name(name: &str) -> Result<(), Wrong> {
     Err(Wrong::new("name", message, "use lower-case letters, digits, - and _, at most 40"))
 }
 
+/// The place that a key gives.
+fn place<const D: usize>(
+    key: &str,
+    given: &Option<OneOrMany<f64>>,
+    size: [f64; D],
+) -> Result<[f64; D], Wrong> {
+    let given = given.as_ref().map_or(&[][..], |at| &at.0);
+    let at: [f64; D] = given.try_into().map_err(|_| {
+        let message = format!("{} number(s) are no place in this body", given.len());
+        let each = if key == "at_m" { "; one probe for each place" } else { "" };
+        Wrong::new(key, message, format!("give {D}, one per axis{each}"))
+    })?;
+    Ok(std::array::from_fn(|axis| snapped(at[axis], size[axis])))
+}
+
 /// A place meant to be the far edge must not miss it by rounding.
 fn snapped(at: f64, size: f64) -> f64 {
     if (at - size).abs() <= 1e-9 * size { size } else { at }
@@ -122,6 +142,8 @@ fn snapped(at: f64, size: f64) -> f64 {
 pub fn quantities(watches: WatchName, dimension: usize) -> &'static [&'static str] {
     match watches {
         WatchName::Point | WatchName::Line => &["displacement_x", "displacement_y"][..dimension],
+        WatchName::Patch if dimension == 1 => &["displacement_x", "acceleration_x"],
+        WatchName::Patch => &["displacement_x", "displacement_y", "acceleration_x", "acceleration_y"],
         WatchName::Strain => &["strain"],
         WatchName::Momentum => &["momentum_x", "momentum_y"][..dimension],
         WatchName::Energies => {

@@ -5,6 +5,7 @@ mod commands;
 mod holed;
 mod interruption;
 mod limits;
+mod patches;
 mod place;
 mod refinements;
 mod refusals;

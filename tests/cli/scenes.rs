@@ -222,6 +222,23 @@ fn probes_and_expectations_that_see_nothing() {
         Slip("at_m = 0.5", "at_mm = 1500", &["study.toml:39:", "outside the body", "from 0 to 1 m"]),
         Slip("at_m = 0.5", "at_m = [0.5, 0.1]", &["study.toml:39:", "2 number(s)", "one per axis"]),
         Slip("at_m = 0.5\n", "", &["study.toml:36:", "this probe needs at_m"]),
+        Slip("\"strain\"\nat_m = 0.5", "\"patch\"\nfrom_m = 0.2", &["study.toml:36:", "needs to_m"]),
+        Slip(
+            "\"strain\"\nat_m = 0.5",
+            "\"patch\"\nfrom_m = 0.2\nto_m = 1.5",
+            &["study.toml:40:", "outside the body", "from 0 to 1 m"],
+        ),
+        Slip(
+            "\"strain\"\nat_m = 0.5",
+            "\"patch\"\nfrom_m = 0.2\nto_mm = 202",
+            &["study.toml:40:", "holds no node", "widen it"],
+        ),
+        Slip(
+            "\"strain\"\nat_m = 0.5",
+            "\"patch\"\nfrom_m = 0.2\nto_m = 0.4",
+            &["study.toml:48:", "seen at many places", "a point or a line"],
+        ),
+        Slip("at_m = 0.5", "at_m = 0.5\nto_m = 0.6", &["study.toml:40:", "to_m says nothing"]),
         Slip("\"strain\"\nat_m", "\"stain\"\nat_m", &["study.toml:38:", "did you mean `strain`?"]),
         Slip("every_steps = 10", "every_steps = 0", &["study.toml:40:", "every 0 steps"]),
         Slip("name = \"line\"", "name = \"middle\"", &["study.toml:43:", "two probes are called \"middle\""]),

@@ -11,6 +11,7 @@ mod fields;
 mod holed;
 mod motion;
 mod notched;
+mod patches;
 mod probes;
 mod refused;
 mod snapshots;
