@@ -4,8 +4,8 @@ use super::plot::{Figure, Panel};
 use crate::table::{Cell, Row, Table};
 use std::sync::Arc;
 
-/// The table `<figure>.csv`. A heat map gives its rows as series and its columns as x, a dot chart its groups as x. A
-/// raster gives what its values are as series, and the value of each cell at its middle in a column of its own, which
+/// The table `<figure>.csv`. A heat map gives its rows as series and its columns as x, a dot chart its groups as x;
+/// stacked bars give their contributions, then the sum, as series and the bars' names as x. A raster gives what its values are as series, and the value of each cell at its middle in a column of its own, which
 /// only figures with rasters have.
 pub fn figure_table(figure: &Figure) -> Table {
     let columns = ["panel", "series", "x_axis", "y_axis", "x", "y", "value"];
@@ -61,6 +61,23 @@ pub fn figure_table(figure: &Figure) -> Table {
                         .for_each(|(x, value)| push(&shared, x.as_str().into(), value.into()));
                 }
             }
+            Panel::StackedBars(bars) => {
+                let parts = bars.contributions.iter().enumerate();
+                for (i, name) in parts {
+                    let shared = block(&bars.title, name, "bar", &bars.value.label);
+                    for stack in &bars.stacks {
+                        push(
+                            &shared,
+                            stack.label.as_str().into(),
+                            stack.parts.get(i).copied().flatten().into(),
+                        );
+                    }
+                }
+                let shared = block(&bars.title, &bars.sum, "bar", &bars.value.label);
+                bars.stacks
+                    .iter()
+                    .for_each(|stack| push(&shared, stack.label.as_str().into(), stack.sum().into()));
+            }
         }
     }
     table
@@ -69,7 +86,7 @@ pub fn figure_table(figure: &Figure) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::plot::{Axis, Lines, Raster, Series};
+    use crate::report::plot::{Axis, Lines, Raster, Series, Stack, StackedBars};
 
     #[test]
     fn every_point_is_a_row_and_a_gap_an_empty_cell() {
@@ -98,5 +115,27 @@ mod tests {
             Raster::new(Axis::linear("i"), Axis::linear("j"), Axis::linear("v"), vec![vec![Some(7.0)]]);
         let text = figure_table(&Figure::new("f", "", "", line).panel(raster)).csv();
         assert_eq!(text, "panel,series,x_axis,y_axis,x,y,value\n1,a,x,y,1,2,\n2,v,i,j,0.5,0.5,7\n");
+    }
+
+    #[test]
+    fn bars_give_a_row_for_each_part_and_each_sum() {
+        let stacks = vec![
+            Stack::new("p = 1", [1.0, -0.25]),
+            Stack { label: "p = 2".into(), parts: vec![Some(2.0), None] },
+            Stack::new("p = 3", [f64::NAN, 3.0]),
+        ];
+        let names = vec!["moduli".to_owned(), "edge".to_owned()];
+        let panel = StackedBars::new(Axis::linear("error (%)"), names, "sum", stacks).titled("peak");
+        let text = figure_table(&Figure::new("f", "", "", panel)).csv();
+        let block = |series: &str, values: [&str; 3]| {
+            let row = |(i, value)| format!("peak,{series},bar,error (%),p = {i},{value}\n");
+            (1..).zip(values).map(row).collect::<String>()
+        };
+        let rows = [
+            block("moduli", ["1", "2", ""]),
+            block("edge", ["-0.25", "", "3"]),
+            block("sum", ["0.75", "2", ""]),
+        ];
+        assert_eq!(text, format!("panel,series,x_axis,y_axis,x,y\n{}", rows.concat()));
     }
 }

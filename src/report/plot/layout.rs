@@ -76,6 +76,7 @@ impl Panel {
             Self::Polar(polar) => polar.legend(),
             Self::HeatMap(_) | Self::Raster(_) => Vec::new(),
             Self::Dots(dots) => dots.legend(),
+            Self::StackedBars(bars) => bars.legend(),
         }
     }
 
@@ -86,6 +87,7 @@ impl Panel {
             Self::HeatMap(map) => map.draw(canvas, corner, width),
             Self::Raster(raster) => raster.draw(canvas, corner, width),
             Self::Dots(dots) => dots.draw(canvas, corner, width),
+            Self::StackedBars(bars) => bars.draw(canvas, corner, width),
         }
     }
 }

@@ -8,6 +8,7 @@ pub(super) struct LeftOut {
     pub not_finite: usize,
     pub not_positive: usize,
     pub outside: usize,
+    pub sums: usize,
     pub blank_cells: usize,
     pub grey_cells: usize,
 }
@@ -37,6 +38,7 @@ impl LeftOut {
         self.not_finite += other.not_finite;
         self.not_positive += other.not_positive;
         self.outside += other.outside;
+        self.sums += other.sums;
         self.blank_cells += other.blank_cells;
         self.grey_cells += other.grey_cells;
     }
@@ -53,6 +55,10 @@ impl LeftOut {
         }
         if self.outside > 0 {
             parts.push(format!("{} outside the axes", count(self.outside)));
+        }
+        if self.sums > 0 {
+            let s = if self.sums == 1 { "" } else { "s" };
+            parts.push(format!("{} sum{s} with a part that is not finite", self.sums));
         }
         let mut note = String::new();
         if !parts.is_empty() {

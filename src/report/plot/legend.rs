@@ -1,6 +1,8 @@
 //! Legends, always outside the plot: entries in columns, long names broken into lines.
 
 use super::canvas::{Align, Canvas, Stroke, Text};
+use super::clip::Rect;
+use super::fill::Fill;
 use super::style::{INK, Pen};
 use super::text;
 
@@ -15,6 +17,7 @@ const BETWEEN: f64 = 24.0;
 pub(super) enum Key {
     Curve(Pen),
     Guide(Stroke),
+    Area(Fill),
 }
 
 /// A key with its name.
@@ -80,5 +83,8 @@ fn key(canvas: &mut Canvas, key: Key, x: f64, y: f64) {
             canvas.marker((x + 0.5 * KEY, y), pen);
         }
         Key::Guide(stroke) => canvas.line((x, y), (x + KEY, y), stroke),
+        Key::Area(fill) => {
+            fill.draw(canvas, Rect { left: x + 6.0, top: y - 7.0, right: x + KEY - 6.0, bottom: y + 7.0 });
+        }
     }
 }

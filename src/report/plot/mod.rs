@@ -1,4 +1,4 @@
-//! Figures as SVG text: curves, polar plots, heat maps, rasters and dot charts from plain data.
+//! Figures as SVG text: curves, polar plots, heat maps, rasters, dot charts and stacked bars from plain data.
 //!
 //! [`svg`] is a pure function: the same figure gives the same text. Legends stand outside the plots, curves are cut at
 //! the frame, a value that is missing or not finite is a gap, and a line under the figure says what was left out.
@@ -22,6 +22,7 @@ mod canvas;
 mod clip;
 mod colour_scale;
 mod dots;
+mod fill;
 mod frame;
 mod heat_map;
 mod layout;
@@ -32,6 +33,7 @@ mod number;
 mod polar;
 mod raster;
 mod slope;
+mod stacked_bars;
 mod style;
 #[cfg(test)]
 mod tests;
@@ -46,6 +48,7 @@ pub use layout::svg;
 pub use lines::{Band, Guide, Lines, Series};
 pub use polar::Polar;
 pub use raster::Raster;
+pub use stacked_bars::{Stack, StackedBars};
 pub use style::{Colour, Dash, Marker, Style};
 
 /// One or several panels under one title.
@@ -94,6 +97,7 @@ pub enum Panel {
     HeatMap(HeatMap),
     Raster(Raster),
     Dots(Dots),
+    StackedBars(StackedBars),
 }
 
 impl From<Lines> for Panel {
@@ -123,6 +127,12 @@ impl From<Raster> for Panel {
 impl From<Dots> for Panel {
     fn from(panel: Dots) -> Self {
         Self::Dots(panel)
+    }
+}
+
+impl From<StackedBars> for Panel {
+    fn from(panel: StackedBars) -> Self {
+        Self::StackedBars(panel)
     }
 }
 

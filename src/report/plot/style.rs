@@ -119,7 +119,7 @@ impl Style {
     }
 }
 
-fn slot_colour(slot: usize) -> Rgb {
+pub(super) fn slot_colour(slot: usize) -> Rgb {
     SLOTS[slot % SLOTS.len()]
 }
 

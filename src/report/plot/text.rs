@@ -22,12 +22,13 @@ pub(super) fn width(text: &str, size: f64, bold: bool) -> f64 {
     shares * size * if bold { 1.12 } else { 1.0 }
 }
 
-/// The text in lines no wider than `room`, broken at spaces, and inside a word only where one alone is too wide.
+/// The text in lines no wider than `room`, broken at spaces, beside an equals sign only where the equation is too wide
+/// for a line, and inside a word only where one alone is.
 pub(super) fn wrap(text: &str, size: f64, bold: bool, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
-    for word in text.split_whitespace() {
-        for piece in pieces(word, size, bold, room) {
+    for word in words(text, size, bold, room) {
+        for piece in pieces(&word, size, bold, room) {
             let longer = if line.is_empty() { piece.clone() } else { format!("{line} {piece}") };
             if width(&longer, size, bold) <= room || line.is_empty() {
                 line = longer;
@@ -40,6 +41,25 @@ pub(super) fn wrap(text: &str, size: f64, bold: bool, room: f64) -> Vec<String> 
         lines.push(line);
     }
     lines
+}
+
+/// The words of a text; `p = 2` is one where it fits.
+fn words(text: &str, size: f64, bold: bool, room: f64) -> Vec<String> {
+    let single: Vec<&str> = text.split_whitespace().collect();
+    let mut words = Vec::new();
+    let mut start = 0;
+    while start < single.len() {
+        let equation = single.get(start + 1) == Some(&"=");
+        let end = if equation { (start + 3).min(single.len()) } else { start + 1 };
+        let joined = single[start..end].join(" ");
+        if width(&joined, size, bold) <= room {
+            words.push(joined);
+        } else {
+            words.extend(single[start..end].iter().map(|word| (*word).to_owned()));
+        }
+        start = end;
+    }
+    words
 }
 
 /// A word cut into parts that fit; almost always the word itself.
@@ -79,6 +99,16 @@ mod tests {
         let lines = wrap(&"x".repeat(60), 14.0, false, 100.0);
         assert!(lines.iter().all(|line| width(line, 14.0, false) <= 100.0), "{lines:?}");
         assert_eq!(lines.concat().len(), 60);
+    }
+
+    #[test]
+    fn an_equation_stays_together_where_it_fits() {
+        let text = "exponential kernel, p = 2, m = 3";
+        let room = width("exponential kernel, p =", 14.0, false);
+        assert_eq!(wrap(text, 14.0, false, room), ["exponential kernel,", "p = 2, m = 3"]);
+        let narrow = wrap(text, 14.0, false, 30.0);
+        assert!(narrow.iter().all(|line| width(line, 14.0, false) <= 30.0), "{narrow:?}");
+        assert_eq!(narrow.concat().replace(' ', ""), text.replace(' ', ""));
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! Figures like those of the studies, and the awkward ones.
 
-use crate::report::plot::{Axis, Category, Dot, Dots, Figure, Guide, HeatMap, Lines, Polar, Raster, Series};
+use crate::report::plot::{
+    Axis, Category, Dot, Dots, Figure, Guide, HeatMap, Lines, Polar, Raster, Series, Stack, StackedBars,
+};
 use std::f64::consts::PI;
 
 fn sampled(lo: f64, hi: f64, f: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
@@ -154,6 +156,21 @@ pub fn moduli() -> Figure {
     Figure::new("moduli", "Modulus of the lattice", "One is right.", dots)
 }
 
+/// What the error of a peak is made of, in three lattices.
+pub fn budget() -> Figure {
+    let contributions =
+        ["lattice moduli", "dispersion and discretisation", "extraction", "reference", "boundary"];
+    let stacks = vec![
+        Stack::new("constant kernel, m = 3, calibrated", [6.3, -3.1, 1.6, -0.9, 1.1]),
+        Stack::new("exponential kernel, p = 1, m = 3", [2.9, -2.2, 1.3, -0.6, 0.8]),
+        Stack::new("exponential kernel, p = 2, m = 3", [-1.7, -1.5, 1.2, -0.6, 0.5]),
+    ];
+    let value = Axis::linear("contribution to the error of the peak (% of the peak)");
+    let panel =
+        StackedBars::new(value, contributions.map(str::to_owned).to_vec(), "sum of contributions", stacks);
+    Figure::new("budget", "What the error of the peak is made of", "Three kernels.", panel)
+}
+
 /// Strain at four times, one legend for all.
 pub fn multiples() -> Figure {
     let panel = |t: f64| {
@@ -228,6 +245,7 @@ pub fn all() -> Vec<Figure> {
         space_time(),
         fields(),
         moduli(),
+        budget(),
         multiples(),
         awkward(),
         wordy(),

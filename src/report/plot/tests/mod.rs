@@ -2,6 +2,7 @@
 
 mod gallery;
 mod reader;
+mod stacked_bars;
 
 use super::*;
 use reader::{Drawing, read};
@@ -35,7 +36,8 @@ fn nothing_leaves_the_picture() {
     for figure in gallery::all() {
         let drawing = read(&svg(&figure).unwrap());
         let (wide, high) = drawing.size;
-        for (x, y) in drawing.polylines.iter().flat_map(|line| &line.points) {
+        let areas = drawing.polygons.iter().flat_map(|area| &area.points);
+        for (x, y) in drawing.polylines.iter().flat_map(|line| &line.points).chain(areas) {
             assert!((0.0..=wide).contains(x) && (0.0..=high).contains(y), "{}: {x} {y}", figure.id);
         }
         for text in &drawing.texts {

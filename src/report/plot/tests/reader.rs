@@ -8,6 +8,8 @@ use crate::report::plot::text::width;
 pub struct Drawing {
     pub size: (f64, f64),
     pub polylines: Vec<Polyline>,
+    /// Filled areas; the first is the ground.
+    pub polygons: Vec<Polygon>,
     pub texts: Vec<Words>,
     /// Centre and radius of what is not filled.
     pub rings: Vec<(f64, f64, f64)>,
@@ -20,6 +22,22 @@ pub struct Drawing {
 pub struct Polyline {
     pub points: Vec<(f64, f64)>,
     pub stroke: String,
+}
+
+#[derive(Debug)]
+pub struct Polygon {
+    pub points: Vec<(f64, f64)>,
+    pub fill: String,
+}
+
+impl Polygon {
+    /// The smallest upright rectangle around it.
+    pub fn extent(&self) -> Rect {
+        let (x, y) = (self.points.iter().map(|p| p.0), self.points.iter().map(|p| p.1));
+        let (left, right) = (x.clone().fold(f64::INFINITY, f64::min), x.fold(f64::NEG_INFINITY, f64::max));
+        let (top, bottom) = (y.clone().fold(f64::INFINITY, f64::min), y.fold(f64::NEG_INFINITY, f64::max));
+        Rect { left, top, right, bottom }
+    }
 }
 
 #[derive(Debug)]
@@ -47,10 +65,10 @@ impl Drawing {
         self.filled.iter().filter(|one| *one == fill).count()
     }
 
-    /// The first closed rectangle that is drawn as a line.
+    /// The first closed rectangle that is drawn as a line of the frame's colour.
     pub fn frame(&self) -> Rect {
-        let line =
-            self.polylines.iter().find(|line| line.points.len() == 5 && line.points[0] == line.points[4]);
+        let closed = |line: &&Polyline| line.points.len() == 5 && line.points[0] == line.points[4];
+        let line = self.curves("#282828").find(closed);
         let points = &line.expect("a frame").points;
         Rect { left: points[0].0, top: points[0].1, right: points[2].0, bottom: points[2].1 }
     }
@@ -109,10 +127,12 @@ fn take(drawing: &mut Drawing, name: &str, body: &str, content: &str) {
             drawing.size = (numbers[2], numbers[3]);
         }
         "polyline" => {
-            let pair =
-                |pair: &str| pair.split_once(',').map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap()));
-            let points = attribute(body, "points").split_whitespace().map(|one| pair(one).unwrap()).collect();
-            drawing.polylines.push(Polyline { points, stroke: attribute(body, "stroke").to_owned() });
+            let stroke = attribute(body, "stroke").to_owned();
+            drawing.polylines.push(Polyline { points: points(body), stroke });
+        }
+        "polygon" => {
+            let fill = attribute(body, "fill").to_owned();
+            drawing.polygons.push(Polygon { points: points(body), fill });
         }
         "path" => {
             let fill = attribute(body, "fill");
@@ -125,6 +145,11 @@ fn take(drawing: &mut Drawing, name: &str, body: &str, content: &str) {
         "text" => drawing.texts.push(words(body, content.trim())),
         _ => {}
     }
+}
+
+fn points(body: &str) -> Vec<(f64, f64)> {
+    let pair = |pair: &str| pair.split_once(',').map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap()));
+    attribute(body, "points").split_whitespace().map(|one| pair(one).unwrap()).collect()
 }
 
 /// The rectangles of a path, each written as `m x y h w v h h -w z` from the corner of the one before.
