@@ -44,6 +44,7 @@ pub mod oracles;
 pub mod periodic_pulse;
 pub mod pulse_bar;
 pub mod released_bar;
+pub mod running_crack;
 pub mod running_tip;
 pub mod scattering;
 pub mod standing_wave;
