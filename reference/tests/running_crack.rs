@@ -90,7 +90,7 @@ fn near_roses_approximation() {
     }
 }
 
-// g_I ≈ 1 − v/c_R is Freund's approximation; it is below the truth by up to 0.06 (measured).
+// g_I ≈ 1 − v/c_R is Freund's approximation; it is off by up to 0.06 (measured).
 #[test]
 fn energy_released() {
     for ratio in [0.1, 0.25, 0.3] {
