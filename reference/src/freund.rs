@@ -14,7 +14,6 @@
 //! Whatever loads the crack later superposes: K(t) = ∫ σ̇(s) k(t − s) ds, k the response to a unit step. How long a plate
 //! follows: [`crate::cracked_plate`].
 
-use crate::double_double::Dd;
 use crate::elastic::{Mode, Plane};
 use crate::quadrature;
 
@@ -139,9 +138,8 @@ impl StationaryCrack {
         let [near, far] = [end, span[0]].map(|s| not_before(t - s).sqrt());
         let width = if t > span[0] { (end - span[0]) / (far + near) } else { 0.0 * t };
         let panel = |i: usize| {
-            let edge = |i: usize| Dd::from(width / panels as f64 * i as f64);
-            let nodes =
-                quadrature::panel(edge(i), edge(i + 1)).map(|(w, weight)| (w.to_f64(), weight.to_f64()));
+            let edge = |i: usize| width / panels as f64 * i as f64;
+            let nodes = quadrature::panel_f64(edge(i), edge(i + 1));
             let value = |w: f64| 2.0 * (far - w) * (far - w) * rate(span[0] + w * (2.0 * far - w));
             nodes.map(|(w, weight)| weight * value(w)).sum::<f64>()
         };

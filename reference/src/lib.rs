@@ -25,7 +25,9 @@
 pub mod bent_plate;
 pub mod cell;
 pub mod continuum;
+pub mod crack_static;
 pub mod cracked_plate;
+pub mod cracked_rectangle;
 pub mod double_double;
 pub mod elastic;
 pub mod finite_differences;
@@ -44,6 +46,7 @@ pub mod oracles;
 pub mod periodic_pulse;
 pub mod pulse_bar;
 pub mod released_bar;
+pub mod running_crack;
 pub mod running_tip;
 pub mod scattering;
 pub mod standing_wave;
@@ -55,6 +58,7 @@ mod bonds;
 mod clock;
 mod complex;
 mod kernel;
+mod least_squares;
 mod pulse;
 mod quadrature;
 

@@ -43,6 +43,11 @@ pub(crate) fn panel(start: Dd, end: Dd) -> impl Iterator<Item = (Dd, Dd)> {
     RULE.iter().map(move |(x, weight)| (middle + half * *x, half * *weight))
 }
 
+/// The same in doubles, for integrands that are doubles.
+pub(crate) fn panel_f64(start: f64, end: f64) -> impl Iterator<Item = (f64, f64)> {
+    panel(Dd::from(start), Dd::from(end)).map(|(x, weight)| (x.to_f64(), weight.to_f64()))
+}
+
 /// Nodes and weights of `count` equal panels over (0, 1).
 pub(crate) fn panels(count: usize) -> impl Iterator<Item = (Dd, Dd)> {
     let edge = move |i: usize| Dd::from(i as f64) / Dd::from(count as f64);

@@ -12,7 +12,7 @@
 //! | mode II (imaginary) | 2α_s B = −(1 + α_s²)A | (1 + α_s²)B = −2α_d A |
 //!
 //! Strengths as in [`crate::near_tip`]. For n = 1: A = 2(1 + α_s²)/(µD√(2π)) in mode I and −4iα_s/(µD√(2π)) in mode II,
-//! D = 4α_dα_s − (1 + α_s²)², the fields of Freund's (4.3.10), (4.3.23), (4.3.24).
+//! D = 4α_dα_s − (1 + α_s²)², the fields of Freund's section 4.3.
 
 use crate::complex::Complex;
 use crate::elastic::{Mode, Plane};

@@ -188,7 +188,7 @@ fn release(at: impl Fn([f64; 2]) -> Field, speed: f64, r: f64) -> f64 {
     (0..count).map(part).sum::<f64>() * r * TAU / f64::from(count)
 }
 
-// G = (K_I² + K_II²)/E' at rest; A(v)K²/E' with A_I = v²α_d/((1 − ν')c_s²D), A_II = v²α_s/(…) (Freund (1990), 5.3.11).
+// G = (K_I² + K_II²)/E' at rest; A(v)K²/E' with A_I = v²α_d/((1 − ν')c_s²D), A_II = v²α_s/(…) (Freund (1990), 5.3).
 #[test]
 fn the_energy_released_is_that_of_the_factors() {
     let plane = plane();
