@@ -13,8 +13,8 @@ use crate::complex::Complex;
 use crate::elastic::Plane;
 use crate::near_tip::{Field, Potentials, from_potentials};
 
-/// Y of an edge crack across a half plane in tension, to the ten digits given: 1.1215222552 (Tada, Paris and Irwin, The
-/// Stress Analysis of Cracks Handbook (2000), 8.1 has 1.1215; the digits beyond come from its integral equation).
+/// Y of an edge crack across a half plane in tension. Handbooks have 1.1215 (Tada, Paris and Irwin, The Stress Analysis
+/// of Cracks Handbook (2000), 8.1); the other digits are those of its integral equation, extrapolated (`tests`).
 pub const EDGE_CRACK: f64 = 1.121_522_255_2;
 
 /// Y of a central crack in a strip in tension (mode I), `ratio` = crack length over width, below 1:

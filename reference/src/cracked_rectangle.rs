@@ -38,9 +38,8 @@ const TERMS: usize = 80;
 
 impl CrackedRectangle {
     /// Y = K/(σ√(πa)): mode I, σ_yy = σ on the two edges along the crack, the others free; mode II, σ_xy = σ on all four.
-    /// About 10⁻⁹ for cracks up to half
-    /// the width and heights up to 2.5 widths, 10⁻⁴ up to 0.8. None where the estimated
-    /// error is above 10⁻³ (a crack within some 10 % of an edge, long strips), or a length is not positive.
+    /// About 10⁻⁹ for cracks up to half the width and heights up to 2.5 widths, 10⁻⁴ up to 0.8 of the width. None where
+    /// the estimated error is above 10⁻³ (cracks nearly to the edge, long strips), or a length is not positive.
     pub fn shape_factor(&self, mode: Mode) -> Option<Estimate> {
         let [w, h] = [self.half_width, self.half_height].map(|length| length / self.half_crack);
         if !(w > 1.0 && w.is_finite() && h > 0.0 && h.is_finite() && self.half_crack > 0.0) {

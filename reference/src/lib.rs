@@ -31,6 +31,7 @@ pub mod cracked_rectangle;
 pub mod double_double;
 pub mod elastic;
 pub mod finite_differences;
+pub mod finite_elements;
 pub mod forced_rest;
 pub mod freund;
 pub mod front;
