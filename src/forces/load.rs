@@ -79,7 +79,7 @@ impl<const D: usize> Effect<D> for Traction {
     }
 }
 
-fn finite(key: &str, value: f64) -> Result<(), Wrong> {
+pub(super) fn finite(key: &str, value: f64) -> Result<(), Wrong> {
     if value.is_finite() {
         return Ok(());
     }

@@ -5,6 +5,7 @@
 
 mod bond_list;
 mod damping;
+mod face_traction;
 mod law;
 mod load;
 mod stencil;
@@ -12,6 +13,7 @@ pub mod surface;
 
 pub use bond_list::BondList;
 pub use damping::{Damper, Damping};
+pub use face_traction::FaceTraction;
 pub use law::{Direction, Finite, Law, Small};
 pub use load::{BodyForce, ForceField, Load, Traction};
 pub use stencil::LatticeStencil;

@@ -1,6 +1,6 @@
 //! What a scene may call for beside its bonds: each effect is asked for in words and becomes a term of the model.
 
-use super::{Scene, Wrong};
+use super::{Notch, Scene, Wrong};
 use crate::constraints::{Constraint, Edges};
 use crate::forces::Force;
 use crate::grid::Grid;
@@ -12,6 +12,8 @@ pub struct Setting<'a, const D: usize> {
     pub grid: &'a Grid<D>,
     /// What lies beyond each edge.
     pub edges: &'a Edges<D>,
+    /// Cuts through a plate.
+    pub notches: &'a [Notch],
     /// ρ in kg/m³.
     pub density: f64,
 }
@@ -19,7 +21,7 @@ pub struct Setting<'a, const D: usize> {
 impl<'a, const D: usize> Setting<'a, D> {
     /// The body of a scene.
     pub fn of(scene: &'a Scene<D>, grid: &'a Grid<D>) -> Self {
-        Self { grid, edges: &scene.edges, density: scene.material.density }
+        Self { grid, edges: &scene.edges, notches: &scene.notches, density: scene.material.density }
     }
 }
 

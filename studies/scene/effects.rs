@@ -3,7 +3,7 @@
 use crate::input::{Refusal, nearest};
 use crate::written::Written;
 use pd_verify::constraints::PrescribedMotion;
-use pd_verify::forces::{BodyForce, Damping, Traction};
+use pd_verify::forces::{BodyForce, Damping, FaceTraction, Traction};
 use pd_verify::scene::Effect;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
@@ -16,6 +16,7 @@ use std::sync::Arc;
 pub const EFFECTS: &[EffectWord] = &[
     EffectWord::of::<BodyForce>("body_force"),
     EffectWord::of::<Traction>("traction"),
+    EffectWord::of::<FaceTraction>("face_traction"),
     EffectWord::of::<PrescribedMotion>("prescribed_motion"),
     EffectWord::of::<Damping>("damping"),
 ];

@@ -59,7 +59,12 @@ body = "plane_stress"
 size_m = [0.1, 0.05]
 dx_mm = 5
 duration_us = 20
+notch = [{ from_m = [0, 0.025], to_m = [0.03, 0.025] }]
 lattice = { kernel = "constant", m = 3, volume_rule = "linear" }
+[[case.effect]]
+acts = "face_traction"
+normal_mpa = 1
+history = { shape = "step" }
 [[case.effect]]
 acts = "traction"
 edge = "right"

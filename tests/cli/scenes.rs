@@ -269,6 +269,17 @@ fn notches_lie_in_plates() {
     ] {
         place.refuses(&["run", &example("notched-plate.toml"), "--set", &with(notch)], &words);
     }
+    let pulled = |keys: &str| {
+        let effect = format!("{{acts=\"face_traction\",history={{shape=\"step\"}},{keys}}}");
+        format!("case.pull.effect=[{effect}]")
+    };
+    for (keys, words) in [
+        ("normal_mpa=1,notch=4", ["there is no notch 4", "name one of them"]),
+        ("stress_mpa=1", ["unknown key `stress_mpa`", "normal_pa"]),
+        ("notch=0", ["normal_pa and shear_pa", "give one of them"]),
+    ] {
+        place.refuses(&["run", &example("notched-plate.toml"), "--set", &pulled(keys)], &words);
+    }
     let bar = BAR.replace("size_m", "notch = [{ from_m = [0, 0], to_m = [1, 1] }]\nsize_m");
     Place::with_study(bar).refuses(&["run", "study.toml"], &["study.toml:", "a bar has no notches"]);
 }
@@ -278,7 +289,7 @@ fn the_schema_knows_effects_by_word() {
     let printed = Place::new().run(&["schema"]).code(0);
     let schema: Value = serde_json::from_slice(&printed.get_output().stdout).unwrap();
     let text = schema.to_string();
-    for word in ["body_force", "traction", "prescribed_motion", "damping"] {
+    for word in ["body_force", "traction", "face_traction", "prescribed_motion", "damping"] {
         assert!(text.contains(&format!("\"acts\":{{\"const\":\"{word}\"}}")), "the schema has no {word}");
     }
     for key in ["stress_mpa", "rate_per_s", "every_steps", "surface_correction", "tolerance", "times_us"] {

@@ -7,6 +7,7 @@ mod checks;
 mod corrected;
 mod costs;
 mod double_loop;
+mod face_loads;
 mod fields;
 mod holed;
 mod motion;
