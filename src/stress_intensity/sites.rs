@@ -33,7 +33,7 @@ impl Sites {
     /// The crack must pass midway between two rows, and behind and ahead of the tip there must be nodes.
     fn check(&self) -> Result<(), Unreadable> {
         let finite = self.first.iter().all(|x| x.is_finite()) && self.spacing.is_finite();
-        if !finite || self.spacing <= 0.0 || self.reach() <= 0.0 {
+        if self.count() == 0 || !finite || self.spacing <= 0.0 || self.reach() <= 0.0 {
             return Err(Unreadable::NoPatch { first: self.first, nodes: self.nodes });
         }
         let upper = self.first[1] + self.spacing * self.upper_row() as f64;
@@ -153,6 +153,8 @@ mod tests {
         tip.sites.first = [0.25, -1.25];
         assert!(matches!(tip.check(), Err(Unreadable::NoPatch { .. })));
         tip.sites.first = [f64::NAN, -1.25];
+        assert!(matches!(tip.check(), Err(Unreadable::NoPatch { .. })));
+        tip.sites = Sites { nodes: [0, 6], spacing: 0.5, first: [-2.25, -1.25] };
         assert!(matches!(tip.check(), Err(Unreadable::NoPatch { .. })));
     }
 }
