@@ -1,0 +1,75 @@
+"""Histories of K of a plate: computed on one mesh, with the error that the next coarser mesh suggests, as a table."""
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from .elements import displacement_basis, edge_load, free_unknowns, mass, stiffness
+from .interaction_integral import functionals
+from .march import smooth, step_response
+from .mesh import cracked_rectangle
+from .plates import MESHES
+
+
+@dataclass(frozen=True)
+class Run:
+    """One plate on one mesh; times (s,) in us, raw and smooth (s, loads) over unit * load.
+
+    spread: largest difference between two domains in the smoothed histories over the peak.
+    """
+
+    times: np.ndarray
+    raw: np.ndarray
+    smooth: np.ndarray
+    spread: float
+    summary: str
+
+
+def compute(plate, name):
+    """The plate on the mesh `name` of MESHES."""
+    start = time.perf_counter()
+    mesh = cracked_rectangle(plate.rectangle, plate.mesh_sizes(name))
+    basis = displacement_basis(mesh)
+    free = free_unknowns(basis, plate.held)
+    loads = np.array([edge_load(basis, tractions) for tractions in plate.loads.values()]).T
+    on_displacement, on_acceleration = functionals(basis, plate.material, plate.mode, plate.domains)
+    time_step = plate.time_step(name)
+    wanted = plate.first + plate.interval * np.arange(plate.samples)
+    steps = int(np.ceil((wanted[-1] + 0.5 * plate.rise) / time_step)) + 2
+    times, values = step_response(
+        stiffness(basis, plate.material)[free][:, free], mass(basis, plate.material)[free][:, free],
+        loads[free], on_displacement[:, free], on_acceleration[:, free], time_step, steps)
+    values /= plate.unit
+    smoothed = smooth(times, values, plate.rise)
+    rows = np.rint(wanted / time_step - 0.5).astype(int)
+    if not np.allclose(times[rows], wanted, rtol=1e-9):
+        raise ValueError(f"the instants of {plate.file} are not middles of steps of {time_step} us")
+    smoothed = smoothed[rows]
+    peak = np.abs(smoothed.mean(axis=1)).max(axis=0)
+    spread = float((np.ptp(smoothed, axis=1) / peak).max())
+    summary = (f"{plate.file} {name}: edges {plate.sizes[name]} mm, {mesh.nelements} triangles, {free.size} unknowns, "
+               f"{steps} steps of {1e3 * time_step:.4g} ns, domains within {100 * spread:.3f} % of the peak, "
+               f"{time.perf_counter() - start:.0f} s")
+    return Run(wanted, values[rows].mean(axis=1), smoothed.mean(axis=1), spread, summary)
+
+
+def table(plate, name, tell=print):
+    """Rows of the file (samples, columns) on the mesh `name`, and the next coarser one for the estimated error."""
+    coarser = compute(plate, MESHES[MESHES.index(name) - 1])
+    tell(coarser.summary)
+    run = compute(plate, name)
+    tell(run.summary)
+    error = np.abs(run.smooth - coarser.smooth)
+    columns = [run.times]
+    for load in range(run.raw.shape[1]):
+        columns += [run.raw[:, load], run.smooth[:, load], error[:, load]]
+    return np.array(columns).T
+
+
+def write(path, plate, rows):
+    """The table as CSV, six digits."""
+    with open(path, "w", encoding="ascii", newline="\n") as file:
+        file.write(plate.header + "\n")
+        for row in rows:
+            file.write(",".join(f"{value:.6g}" for value in row) + "\n")
