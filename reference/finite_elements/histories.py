@@ -5,10 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .elements import displacement_basis, edge_load, free_unknowns, mass, stiffness
-from .interaction_integral import functionals
-from .march import smooth, step_response
-from .mesh import cracked_rectangle
+from .march import smooth
+from .model import Model
 from .plates import MESHES
 
 
@@ -29,17 +27,12 @@ class Run:
 def compute(plate, name):
     """The plate on the mesh `name` of MESHES."""
     start = time.perf_counter()
-    mesh = cracked_rectangle(plate.rectangle, plate.mesh_sizes(name))
-    basis = displacement_basis(mesh)
-    free = free_unknowns(basis, plate.held)
-    loads = np.array([edge_load(basis, tractions) for tractions in plate.loads.values()]).T
-    on_displacement, on_acceleration = functionals(basis, plate.material, plate.mode, plate.domains)
+    model = Model(plate.rectangle, plate.mesh_sizes(name), plate.material, plate.mode, plate.held,
+                  list(plate.loads.values()), plate.domains)
     time_step = plate.time_step(name)
     wanted = plate.first + plate.interval * np.arange(plate.samples)
     steps = int(np.ceil((wanted[-1] + 0.5 * plate.rise) / time_step)) + 2
-    times, values = step_response(
-        stiffness(basis, plate.material)[free][:, free], mass(basis, plate.material)[free][:, free],
-        loads[free], on_displacement[:, free], on_acceleration[:, free], time_step, steps)
+    times, values = model.step_response(time_step, steps)
     values /= plate.unit
     smoothed = smooth(times, values, plate.rise)
     rows = np.rint(wanted / time_step - 0.5).astype(int)
@@ -48,7 +41,7 @@ def compute(plate, name):
     smoothed = smoothed[rows]
     peak = np.abs(smoothed.mean(axis=1)).max(axis=0)
     spread = float((np.ptp(smoothed, axis=1) / peak).max())
-    summary = (f"{plate.file} {name}: edges {plate.sizes[name]} mm, {mesh.nelements} triangles, {free.size} unknowns, "
+    summary = (f"{plate.file} {name}: edges {plate.sizes[name]} mm, {model.triangles} triangles, {model.free.size} unknowns, "
                f"{steps} steps of {1e3 * time_step:.4g} ns, domains within {100 * spread:.3f} % of the peak, "
                f"{time.perf_counter() - start:.0f} s")
     return Run(wanted, values[rows].mean(axis=1), smoothed.mean(axis=1), spread, summary)

@@ -46,7 +46,7 @@ def functional(basis, material, mode, outer):
     if np.count_nonzero(radius < outer) < 50:
         raise ValueError(f"fewer than 50 vertices lie within {outer} mm of the tip: take a finer mesh or a larger domain")
     weight = weights.interpolate(np.clip((outer - radius) / (outer - outer / 3.0), 0.0, 1.0))
-    auxiliary = williams_gradient(material, mode, *basis.global_coordinates().value)
+    auxiliary = williams_gradient(material, mode, *basis.global_coordinates())
     strain = 0.5 * (auxiliary + auxiliary.swapaxes(0, 1))
     auxiliary_stress = material.stress(strain)
     slope = grad(weight)
