@@ -1,4 +1,4 @@
-"""Command line: compute the two histories, compare them with the stored ones, hold the program against known answers."""
+"""Command line: compute the histories, compare them with the stored ones, check the program on known answers."""
 
 import argparse
 import sys
@@ -24,7 +24,8 @@ def parser():
     check.add_argument("plates", nargs="*", metavar="plate", help=f"any of {', '.join(PLATES)}; all when left out")
     check.add_argument("--stored", type=Path, default=Path(__file__).resolve().parents[1] / "data/finite_elements",
                        help="folder of the stored files (default: reference/data/finite_elements)")
-    check.add_argument("--computed", type=Path, default=Path("output"), help="folder of the computed files (default: output)")
+    check.add_argument("--computed", type=Path, default=Path("output"),
+                       help="folder of the computed files (default: output)")
 
     verify = commands.add_parser("verify", help="cracks at rest and Freund's suddenly loaded crack; exit 1 on a miss")
     verify.add_argument("--mesh", choices=ORDERED, default="standard", help="(default: standard)")

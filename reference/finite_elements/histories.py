@@ -41,9 +41,9 @@ def compute(plate, name):
     smoothed = smoothed[rows]
     peak = np.abs(smoothed.mean(axis=1)).max(axis=0)
     spread = float((np.ptp(smoothed, axis=1) / peak).max())
-    summary = (f"{plate.file} {name}: edges {plate.sizes[name]} mm, {model.triangles} triangles, {model.free.size} unknowns, "
-               f"{steps} steps of {1e3 * time_step:.4g} ns, domains within {100 * spread:.3f} % of the peak, "
-               f"{time.perf_counter() - start:.0f} s")
+    summary = (f"{plate.file} {name}: edges {plate.sizes[name]} mm, {model.triangles} triangles, "
+               f"{model.free.size} unknowns, {steps} steps of {1e3 * time_step:.4g} ns, "
+               f"domains within {100 * spread:.4f} % of the peak, {time.perf_counter() - start:.0f} s")
     return Run(wanted, values[rows].mean(axis=1), smoothed.mean(axis=1), spread, summary)
 
 

@@ -4,8 +4,8 @@ With an auxiliary crack-tip field u', in equilibrium and free of traction on the
 tip and 0 at the rim of the domain A,
     I = integral over A of (s_ij u'_i,1 + s'_ij u_i,1 - s_kl e'_kl delta_1j) q_,j + rho a_i u'_i,1 q
       = 2 (K_I K'_I + K_II K'_II) / E',    E' = E/(1 - nu^2),
-since the divergence of the bracket is rho a_i u'_i,1. The faces add nothing (no traction), nor does a ligament on a line
-of symmetry, where u and u' have the same zero components; then the half domain is doubled.
+since the divergence of the bracket is rho a_i u'_i,1. The faces add nothing (no traction), nor does a ligament on a
+line of symmetry, where u and u' have the same zero components; then the half domain is doubled.
 """
 
 import numpy as np
@@ -44,7 +44,7 @@ def functional(basis, material, mode, outer):
     weights = basis.with_element(ElementTriP1())
     radius = np.hypot(*weights.doflocs)
     if np.count_nonzero(radius < outer) < 50:
-        raise ValueError(f"fewer than 50 vertices lie within {outer} mm of the tip: take a finer mesh or a larger domain")
+        raise ValueError(f"fewer than 50 vertices lie within {outer} mm of the tip: refine the mesh")
     weight = weights.interpolate(np.clip((outer - radius) / (outer - outer / 3.0), 0.0, 1.0))
     auxiliary = williams_gradient(material, mode, *basis.global_coordinates())
     strain = 0.5 * (auxiliary + auxiliary.swapaxes(0, 1))

@@ -43,8 +43,10 @@ def against(what, found, known):
 
 
 def tension_strip(width_over_crack, height_over_width, edge):
-    """K_I/(sigma sqrt(pi a)) of a central crack a = 1 mm in a plate of half width `width_over_crack`; one quarter of it.
-    The far triangles are larger where the plate is."""
+    """K_I/(sigma sqrt(pi a)) at rest, central crack a = 1 mm, half width `width_over_crack` in mm; a quarter is meshed.
+
+    The far triangles grow with the plate.
+    """
     width = width_over_crack
     sizes = Sizes(far=max(2.0 * edge, 0.1 * width), tip=0.25 * edge, growth=2.0 * edge)
     model = Model(Rectangle(1.0, width - 1.0, height_over_width * width), sizes, MATERIAL, 1,

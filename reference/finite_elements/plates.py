@@ -57,7 +57,7 @@ class Plate:
 
     def time_step(self, name):
         """us. An odd part of twice `first`, so that the instants written are middles of steps."""
-        return 2.0 * self.first / {"coarser": 1, "coarse": 1, "standard": 3, "fine": 5}[name]
+        return 2.0 * self.first / {"coarser": 1, "coarse": 1, "standard": 3, "fine": 3}[name]
 
 
 def tension():

@@ -47,7 +47,7 @@ class InteractionIntegral(unittest.TestCase):
             np.testing.assert_allclose(found, np.stack([along_x, along_y], axis=1), rtol=1e-7, atol=1e-12)
 
     def test_k_of_the_singular_field_is_one(self):
-        # Quarter points hold sqrt(r) along the spokes; interpolation outside them and quadrature leave 1e-6 at this size.
+        # Quarter points hold sqrt(r) along the spokes; interpolation elsewhere and quadrature leave 1e-6 here.
         for mode in (1, 2):
             displacement = nodal(self.basis, singular(mode))
             for value in self.parts[mode][0] @ displacement:
@@ -64,9 +64,9 @@ class InteractionIntegral(unittest.TestCase):
             self.assertLess(np.abs(self.parts[mode][0] @ field).max(), bound)
 
     def test_inertia_makes_up_for_stress_that_is_not_in_equilibrium(self):
-        # u_y = y^2 in the upper half, -y^2 in the lower: s_yy = 2 (lambda + 2 mu) |y| and s_xy = 0 leave faces and ligament
-        # free, rho a_y = 2 (lambda + 2 mu). Nothing is singular: K_I = 0 on every domain, by the inertia term alone.
-        # Quadrature of r^(-1/2) in the tip triangles leaves 1e-7.
+        # u_y = y^2 in the upper half, -y^2 in the lower: s_yy = 2 (lambda + 2 mu) |y| and s_xy = 0 leave the faces and
+        # the ligament free, rho a_y = 2 (lambda + 2 mu). Nothing is singular: K_I = 0 on every domain, by the inertia
+        # term alone. Quadrature of r^(-1/2) in the tip triangles leaves 1e-7.
         field = nodal(self.basis, lambda x, y: (0 * x, y**2))
         push = 2.0 * (MATERIAL.lame + 2.0 * MATERIAL.shear_modulus) / MATERIAL.density
         acceleration = nodal(self.basis, lambda x, y: (0 * x, push + 0 * y))
