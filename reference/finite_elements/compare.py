@@ -50,9 +50,9 @@ def near_fronts(times, raw, smooth, rise):
 def differences(plate, stored, computed):
     """One Difference per history of the tables (samples, columns): time, then raw, smoothed and error of each load.
 
-    Smoothed columns are judged by their largest difference away from fronts. A raw column rings in every mesh before and
-    after a front, the stored ones by up to 1 % where the answer is 0: it is judged by the root of the mean
-    square.
+    Smoothed columns are judged by their largest difference away from fronts. A raw column rings in every mesh before
+    and after a front, the stored ones by up to 1 % of the peak where the answer is 0: it is judged by the root of the
+    mean square.
     """
     if stored.shape != computed.shape or not np.allclose(stored[:, 0], computed[:, 0], rtol=1e-4, atol=0.0):
         raise ValueError(f"{plate.file}: the two tables are not at the same instants")

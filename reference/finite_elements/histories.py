@@ -61,8 +61,8 @@ def table(plate, name, tell=print):
 
 
 def write(path, plate, rows):
-    """The table as CSV, six digits."""
+    """The table as CSV, six digits; what is below 1e-12 of the load is zero."""
     with open(path, "w", encoding="ascii", newline="\n") as file:
         file.write(plate.header + "\n")
-        for row in rows:
+        for row in np.round(rows, 12) + 0.0:  # no minus zeros
             file.write(",".join(f"{value:.6g}" for value in row) + "\n")
