@@ -1,0 +1,1 @@
+"""Tests of the finite elements against answers that do not share their code."""
