@@ -5,6 +5,30 @@ use crate::constraints::{Edge, Edges};
 use crate::grid::Grid;
 use crate::scene::{Hole, Notch, Scene};
 
+/// What lies in a body and its images beyond the edges: mirrored about a place on an axis, or moved along it.
+pub(crate) fn with_images<const D: usize, T: Copy>(
+    scene: &Scene<D>,
+    mut all: Vec<T>,
+    mirrored: fn(T, usize, f64) -> T,
+    moved: fn(T, usize, f64) -> T,
+) -> Vec<T> {
+    for (axis, edges) in scene.edges.0.into_iter().enumerate() {
+        let size = scene.size()[axis];
+        let images = |one: &T| {
+            let beyond = |(edge, place, way): (Edge, f64, f64)| match edge {
+                Edge::Free => None,
+                Edge::MirrorOdd | Edge::MirrorEven => Some(mirrored(*one, axis, place)),
+                Edge::Periodic => Some(moved(*one, axis, way)),
+            };
+            let both = [(edges[0], 0.0, -size), (edges[1], size, size)];
+            both.into_iter().filter_map(beyond).collect::<Vec<_>>()
+        };
+        let more: Vec<T> = all.iter().flat_map(images).collect();
+        all.extend(more);
+    }
+    all
+}
+
 /// The bonds of a body.
 #[derive(Debug, Clone)]
 pub struct Connectivity<const D: usize> {
@@ -19,23 +43,7 @@ pub struct Connectivity<const D: usize> {
 
 impl<const D: usize> Connectivity<D> {
     pub fn of(scene: &Scene<D>) -> Self {
-        let mut notches = scene.notches.clone();
-        for (axis, edges) in scene.edges.0.into_iter().enumerate() {
-            let size = scene.size()[axis];
-            let images = |notch: &Notch| {
-                let beyond = |(edge, place, way): (Edge, f64, f64)| match edge {
-                    Edge::Free => None,
-                    Edge::MirrorOdd | Edge::MirrorEven => Some(notch.mirrored(axis, place)),
-                    Edge::Periodic => Some(notch.moved(axis, way)),
-                };
-                [(edges[0], 0.0, -size), (edges[1], size, size)]
-                    .into_iter()
-                    .filter_map(beyond)
-                    .collect::<Vec<_>>()
-            };
-            let more: Vec<Notch> = notches.iter().flat_map(images).collect();
-            notches.extend(more);
-        }
+        let notches = with_images(scene, scene.notches.clone(), Notch::mirrored, Notch::moved);
         Self { grid: scene.grid(0), edges: scene.edges, notches, holes: scene.voids() }
     }
 

@@ -4,7 +4,9 @@
 //! outside changes it by exactly f(n)·(u(n+1) − u(n−1))/2. So H less the work is constant to rounding whatever the load,
 //! the damping and the driven nodes do: a check of the whole step. With finite rotations ½ u(n)ᵀK u(n+1) becomes
 //! ½(E(n) + E(n+1)) + ¼ d·(F(n+1) − F(n)), the same for a linear body, and the balance holds as far as a step is linear.
+//! Bonds that break between two steps take their part of this form with them: ½ u(n)ᵀk u(n+1), an account of its own.
 
+use crate::breaking::Broken;
 use crate::forces::{Class, Now};
 use crate::model::{Inertia, Model};
 
@@ -21,18 +23,22 @@ pub struct Balance {
     pub rates: f64,
     /// Work of driven nodes.
     pub constraints: f64,
+    /// What bonds held when they were cut, since the start.
+    pub cut_bonds: f64,
 }
 
 impl Balance {
     /// What stays constant.
     pub fn closed(&self) -> f64 {
-        self.kinetic + self.elastic - self.loads - self.rates - self.constraints
+        self.kinetic + self.elastic - self.loads - self.rates - self.constraints + self.cut_bonds
     }
 }
 
 /// Books every step.
 pub struct Ledger<const D: usize> {
     balance: Balance,
+    /// What bonds held that were cut after the step booked last: the next step no longer has them.
+    cut: f64,
     /// Forces after those of class internal, and after the loads.
     internal: Vec<f64>,
     loaded: Vec<f64>,
@@ -48,6 +54,7 @@ impl<const D: usize> Ledger<D> {
         let field = || model.grid.field();
         Self {
             balance: Balance::default(),
+            cut: 0.0,
             internal: field(),
             loaded: field(),
             before: field(),
@@ -74,6 +81,14 @@ impl<const D: usize> Ledger<D> {
         }
     }
 
+    /// Notes what bonds held that broke after the step booked last; `before` is what was broken then.
+    pub(crate) fn release(&mut self, model: &Model<D>, now: &Now<'_>, before: &Broken) {
+        let pairs = now.displacement.iter().zip(now.increment);
+        let mut earlier: Vec<f64> = pairs.map(|(u, d)| u - d).collect();
+        model.fill_ghosts(&mut earlier);
+        self.cut += model.released(&Now { displacement: &earlier, broken: before, ..*now }, now);
+    }
+
     /// Keeps d(n), and hands it back when the step is done.
     pub(crate) fn remember(&mut self, increment: &[f64]) -> Vec<f64> {
         let mut before = std::mem::take(&mut self.before);
@@ -81,16 +96,9 @@ impl<const D: usize> Ledger<D> {
         before
     }
 
-    /// Books a step from d(n), the force at n, d(n+1) and u(n+1).
-    pub(crate) fn book(
-        &mut self,
-        model: &Model<D>,
-        before: Vec<f64>,
-        force: &[f64],
-        time_step: f64,
-        increment: &[f64],
-        displacement: &[f64],
-    ) {
+    /// Books a step from d(n), the force at n, and the state at n+1 with the bonds of n.
+    pub(crate) fn book(&mut self, model: &Model<D>, before: Vec<f64>, force: &[f64], now: &Now<'_>) {
+        let Now { displacement, increment, time_step, .. } = *now;
         let mut sums = Balance::default();
         for node in model.grid.each() {
             for axis in 0..D {
@@ -109,6 +117,7 @@ impl<const D: usize> Ledger<D> {
             }
         }
         let volume = model.cell_volume;
+        self.balance.cut_bonds += std::mem::take(&mut self.cut);
         self.balance.kinetic = volume * sums.kinetic;
         self.balance.elastic = volume * sums.elastic;
         self.balance.loads += volume * sums.loads;
@@ -117,12 +126,11 @@ impl<const D: usize> Ledger<D> {
             self.balance.constraints += volume * sums.constraints;
         }
         if let Some(energy) = self.energy {
-            let now = Now { displacement, increment, time: f64::NAN, time_step };
             self.next.fill(0.0);
-            model.add_forces(model.of_class(Class::Internal), &now, &mut self.next);
+            model.add_forces(model.of_class(Class::Internal), now, &mut self.next);
             let stiff = increment.iter().zip(self.next.iter().zip(&self.internal));
             let bend: f64 = stiff.map(|(d, (next, force))| d * (next - force)).sum();
-            self.balance.elastic = 0.5 * (energy + model.energy(&now)) + 0.25 * volume * bend;
+            self.balance.elastic = 0.5 * (energy + model.energy(now)) + 0.25 * volume * bend;
         }
         self.before = before;
     }

@@ -75,6 +75,7 @@
 //! evidence against it; [`report`] turns the result into tables, figures and pages. Exact answers live in a crate of
 //! their own, `pd-verify-reference`, which cannot see this one, and which this one does not use.
 
+pub mod breaking;
 pub mod claim;
 pub mod compare;
 pub mod connectivity;

@@ -3,6 +3,7 @@
 //! Velocity Verlet and central differences are the same scheme written in other variables (tests/schemes.rs). Started
 //! with d = Δt v₀ − ½Δt² a₀ half a step before t = 0, it is second order from the first step on.
 
+use crate::breaking::{Broken, RunningNotches};
 use crate::forces::Now;
 use crate::grid::Grid;
 use crate::ledger::Ledger;
@@ -30,6 +31,7 @@ pub struct March<'m, const D: usize> {
     displacement: Vec<f64>,
     increment: Vec<f64>,
     force: Vec<f64>,
+    broken: Broken,
 }
 
 impl<'m, const D: usize> March<'m, D> {
@@ -48,14 +50,16 @@ impl<'m, const D: usize> March<'m, D> {
         time_step: f64,
     ) -> Self {
         let force = model.grid.field();
+        let broken = model.breaking.as_ref().map_or_else(|| Broken::none().clone(), RunningNotches::intact);
         let mut march =
-            Self { model, time_step, step: 0, displacement, increment: model.grid.field(), force };
+            Self { model, time_step, step: 0, displacement, increment: model.grid.field(), force, broken };
         for constraint in &model.constraints {
             constraint.hold(0.0, &march.displacement, &mut march.increment);
         }
         add(&mut march.displacement, &march.increment);
         march.increment = velocity_step;
         model.fill_ghosts(&mut march.displacement);
+        march.commit();
         let mut force = std::mem::take(&mut march.force);
         model.force(&march.now(), &mut force);
         accelerate(model, -0.5 * time_step * time_step, &force, &mut march.increment);
@@ -166,7 +170,13 @@ impl<'m, const D: usize> March<'m, D> {
             increment: &self.increment,
             time: self.time(),
             time_step: self.time_step,
+            broken: &self.broken,
         }
+    }
+
+    /// The bonds that have broken so far.
+    pub fn broken(&self) -> &Broken {
+        &self.broken
     }
 
     /// Marches on to a step. Nothing looks at the body in between.
@@ -176,6 +186,7 @@ impl<'m, const D: usize> March<'m, D> {
             self.model.force(&self.now(), &mut force);
             self.force = force;
             self.move_on();
+            self.commit();
         }
     }
 
@@ -186,7 +197,20 @@ impl<'m, const D: usize> March<'m, D> {
         self.force = force;
         let before = ledger.remember(&self.increment);
         self.move_on();
-        ledger.book(self.model, before, &self.force, self.time_step, &self.increment, &self.displacement);
+        ledger.book(self.model, before, &self.force, &self.now());
+        if let Some(before) = self.commit() {
+            ledger.release(self.model, &self.now(), &before);
+        }
+    }
+
+    /// The one moment at which bonds break: a step is done and the next has not begun. What was broken before, where that
+    /// changes.
+    fn commit(&mut self) -> Option<Broken> {
+        let breaking = self.model.breaking.as_ref()?;
+        let mut broken = std::mem::replace(&mut self.broken, Broken::none().clone());
+        let before = breaking.commit(&self.now(), &mut broken);
+        self.broken = broken;
+        before
     }
 
     /// The second half of a step, the force being known.

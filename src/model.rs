@@ -2,11 +2,15 @@
 //!
 //! A model is the list of its terms. What a scene does not call for is not in the list and costs nothing.
 
+use crate::breaking::RunningNotches;
 use crate::connectivity::Connectivity;
 use crate::constraints::{Constraint, Edges};
 use crate::family::half_family;
 use crate::forces::surface::{Correction, Factors};
-use crate::forces::{BondList, Class, FamilyBond, Finite, Force, LatticeStencil, Law, Now, Small, family};
+use crate::forces::{
+    BondList, Breaking, Class, FamilyBond, Finite, Force, LatticeStencil, Law, Listed, Masks, Now, Small,
+    family,
+};
 use crate::grid::Grid;
 use crate::lattice::Stencil;
 use crate::scene::{Acts, Operator, Rotations, Scene, Setting, Wrong};
@@ -32,6 +36,8 @@ pub struct Model<const D: usize> {
     /// Ordered by class.
     forces: Vec<Box<dyn Force<D>>>,
     pub constraints: Vec<Box<dyn Constraint<D>>>,
+    /// The rule by which bonds break; most bodies have none.
+    pub breaking: Option<RunningNotches>,
     /// Whether the forces are linear in u, so that ½uᵀKu is the elastic energy.
     pub linear: bool,
 }
@@ -43,9 +49,11 @@ impl<const D: usize> Model<D> {
             |wrong: crate::lattice::Unusable| Wrong::new("lattice.m", wrong.to_string(), wrong.cure());
         let stencil = Stencil::<D>::new(scene.lattice).map_err(unusable)?;
         let grid = scene.grid(stencil.reach());
+        let offsets: Vec<[i32; D]> = stencil.bonds.iter().map(|bond| bond.offset).collect();
+        let breaking = RunningNotches::of(scene, &offsets, &grid);
         let bonds = match scene.rotations {
-            Rotations::Small => bonds::<D, Small>(scene, &stencil, &grid),
-            Rotations::Finite => bonds::<D, Finite>(scene, &stencil, &grid),
+            Rotations::Small => bonds::<D, Small>(scene, &stencil, &grid, breaking.as_ref()),
+            Rotations::Finite => bonds::<D, Finite>(scene, &stencil, &grid, breaking.as_ref()),
         };
         let mut model = Self {
             inertia: Inertia::Uniform(scene.material.density),
@@ -53,6 +61,7 @@ impl<const D: usize> Model<D> {
             edges: scene.edges,
             forces: bonds,
             constraints: Vec::new(),
+            breaking,
             linear: scene.linear(),
             grid,
         };
@@ -114,6 +123,15 @@ impl<const D: usize> Model<D> {
         self.cell_volume * pieces.iter().sum::<f64>()
     }
 
+    /// What bonds held in J that are broken in `to` and not in `from`, the state a step before.
+    pub(crate) fn released(&self, from: &Now<'_>, to: &Now<'_>) -> f64 {
+        let pieces: Vec<f64> = (0..self.grid.pieces())
+            .into_par_iter()
+            .map(|piece| self.forces.iter().map(|force| force.released(from, to, piece)).sum())
+            .collect();
+        self.cell_volume * pieces.iter().sum::<f64>()
+    }
+
     /// Does something with each piece of a field; with one piece no thread is woken.
     pub(crate) fn each_piece(&self, field: &mut [f64], act: impl Fn(usize, &mut [f64]) + Send + Sync) {
         let (body, piece) = (&mut field[self.grid.body()], self.grid.piece());
@@ -131,21 +149,37 @@ impl<const D: usize> Model<D> {
 }
 
 /// The bonds of a body. Nodes whose bonds all keep the lattice's weights are served by the operator asked for, the
-/// others, a band along corrected edges, by a list.
+/// others, a band along corrected edges, by a list; those whose bonds may break by an operator of the same kind that looks
+/// at what has broken.
 fn bonds<const D: usize, L: Law>(
     scene: &Scene<D>,
     stencil: &Stencil<D>,
     grid: &Grid<D>,
+    breaking: Option<&RunningNotches>,
 ) -> Vec<Box<dyn Force<D>>> {
     let family = family(stencil, scene.modulus(), scene.spacing);
     let connectivity = Connectivity::of(scene);
     let present = |node, offset| connectivity.present(node, offset);
     let factors = surface_factors(scene, &family, grid);
-    let neutral = |node| factors.as_ref().is_none_or(|factors| factors.neutral(node));
+    let lasts =
+        |node| breaking.is_none_or(|breaking| breaking.breakable().first_word(grid.number(node)).is_none());
+    let neutral = |node| lasts(node) && factors.as_ref().is_none_or(|factors| factors.neutral(node));
     let mut forces: Vec<Box<dyn Force<D>>> = vec![match scene.operator {
         Operator::Stencil => Box::new(LatticeStencil::<D, L>::new(grid, &family, neutral, &present)),
         Operator::Bonds => Box::new(BondList::<D, L>::new(grid, &family, neutral, &present, |_, _| 1.0)),
     }];
+    if let Some(breakable) = breaking.map(RunningNotches::breakable) {
+        forces.push(match scene.operator {
+            Operator::Stencil => {
+                let masks = Masks::new(grid, &family, breakable, &present);
+                Box::new(Breaking::<D, L, _>::new(grid, masks))
+            }
+            Operator::Bonds => {
+                let listed = Listed::<D, L>::new(grid, &family, breakable, &present);
+                Box::new(Breaking::<D, L, _>::new(grid, listed))
+            }
+        });
+    }
     if let Some(factors) = &factors {
         let banded = |node| !factors.neutral(node);
         let factor = |owner, bond| factors.of(owner, bond);

@@ -2,6 +2,7 @@
 //!
 //! Driven nodes are held at their displacement of t = 0; what depends on the velocity does not act at rest. A free body under balanced loads keeps its mean displacement.
 
+use crate::breaking::Broken;
 use crate::forces::{Class, Now};
 use crate::model::Model;
 use thiserror::Error;
@@ -78,7 +79,7 @@ fn relative(left: f64, start: f64) -> f64 {
 }
 
 fn still(displacement: &[f64]) -> Now<'_> {
-    Now { displacement, increment: &[], time: 0.0, time_step: f64::NAN }
+    Now { displacement, increment: &[], time: 0.0, time_step: f64::NAN, broken: Broken::none() }
 }
 
 /// In the order of the field, whatever the threads do.

@@ -4,6 +4,7 @@
 //! the verdict watched. Each default is the library's own function and nothing else.
 
 use nalgebra::Complex;
+use pd_verify::breaking::Broken;
 use pd_verify::dispersion::bar::BarDispersion;
 use pd_verify::dispersion::joint::{self, Chain};
 use pd_verify::dispersion::plane::PlaneDispersion;
@@ -167,7 +168,13 @@ fn bond_force<const D: usize>(scene: &Scene<D>) -> Result<Vec<[f64; D]>, String>
         }
     }
     model.fill_ghosts(&mut displacement);
-    let now = Now { displacement: &displacement, increment: &[], time: 0.0, time_step: f64::NAN };
+    let now = Now {
+        displacement: &displacement,
+        increment: &[],
+        time: 0.0,
+        time_step: f64::NAN,
+        broken: Broken::none(),
+    };
     let mut force = model.grid.field();
     model.add_forces(model.of_class(Class::Internal), &now, &mut force);
     Ok(nodes(&model, &force))

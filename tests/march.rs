@@ -42,6 +42,7 @@ fn bar(operator: Operator) -> Scene<1> {
         operator,
         edges: Edges([[MirrorOdd, MirrorEven]]),
         notches: vec![],
+        running: vec![],
         holes: vec![],
         surface: Correction::None,
         displacement: vec![Initial { component: 0, amplitude: 1e-3, shape: Shape::Linear { along: 0 } }],

@@ -8,10 +8,10 @@ use crate::grid::Grid;
 
 /// The operator, over the nodes it was given.
 pub struct BondList<const D: usize, L> {
-    family: Vec<FamilyBond<D>>,
+    pub(super) family: Vec<FamilyBond<D>>,
     /// By piece.
-    nodes: Vec<Vec<Node>>,
-    ends: Vec<End>,
+    pub(super) nodes: Vec<Vec<Node>>,
+    pub(super) ends: Vec<End>,
     stride: usize,
     start: usize,
     piece: usize,
@@ -19,22 +19,22 @@ pub struct BondList<const D: usize, L> {
 }
 
 /// A node and where its bonds are listed.
-struct Node {
-    place: usize,
-    first: usize,
-    last: usize,
+pub(super) struct Node {
+    pub place: usize,
+    pub first: usize,
+    pub last: usize,
 }
 
 /// One end of a bond.
-struct End {
+pub(super) struct End {
     /// Place of the node at the other end.
-    far: u32,
+    pub far: u32,
     /// Index in the half family.
-    bond: u16,
+    pub bond: u16,
     /// Whether this end is the owner's; the other end sees the bond reversed.
-    owner: bool,
+    pub owner: bool,
     /// In N/m⁴.
-    weight: f64,
+    pub weight: f64,
 }
 
 impl<const D: usize, L: Law> BondList<D, L> {
@@ -82,17 +82,21 @@ impl<const D: usize, L: Law> BondList<D, L> {
         nodes * size_of::<Node>() + ends as usize * size_of::<End>()
     }
 
+    /// The bond as this end sees it.
+    pub(super) fn direction(&self, end: &End) -> super::Direction<D> {
+        let direction = self.family[usize::from(end.bond)].direction;
+        if end.owner { direction } else { direction.reversed() }
+    }
+
     /// Weight, direction and η of each bond of a node, seen from it.
     fn bonds<'a>(
         &'a self,
         u: &'a [f64],
         node: &'a Node,
     ) -> impl Iterator<Item = (f64, super::Direction<D>, [f64; D])> + 'a {
-        self.ends[node.first..node.last].iter().map(|end| {
-            let direction = self.family[usize::from(end.bond)].direction;
-            let seen = if end.owner { direction } else { direction.reversed() };
-            (end.weight, seen, apart(u, node.place, end.far as usize, self.stride))
-        })
+        self.ends[node.first..node.last]
+            .iter()
+            .map(|end| (end.weight, self.direction(end), apart(u, node.place, end.far as usize, self.stride)))
     }
 }
 

@@ -5,6 +5,7 @@
 //! where both nodes stand, so that what a pair feels is zero to the last bit. The layers are Δx apart: a shear τ on a
 //! length L of a plate of thickness h has the moment τΔxLh about the normal of the plate, against the sense in which left
 //! follows from the notch's direction; it vanishes with Δx. Normal tractions have none.
+//! What a running notch opens later carries no traction.
 
 use super::load::finite;
 use super::{Class, Force, Now};

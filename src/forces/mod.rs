@@ -4,6 +4,7 @@
 //! given; what has a potential says how much energy it holds, which the conformance suite differentiates.
 
 mod bond_list;
+mod breakable;
 mod damping;
 mod face_traction;
 mod law;
@@ -12,12 +13,14 @@ mod stencil;
 pub mod surface;
 
 pub use bond_list::BondList;
+pub use breakable::{Breaking, Listed, Masks, Store};
 pub use damping::{Damper, Damping};
 pub use face_traction::FaceTraction;
 pub use law::{Direction, Finite, Law, Small};
 pub use load::{BodyForce, ForceField, Load, Traction};
 pub use stencil::LatticeStencil;
 
+use crate::breaking::Broken;
 use crate::grid::Grid;
 use crate::lattice::Stencil;
 
@@ -32,6 +35,8 @@ pub struct Now<'a> {
     pub time: f64,
     /// Δt in s.
     pub time_step: f64,
+    /// The bonds that have broken so far.
+    pub broken: &'a Broken,
 }
 
 /// In which order forces are summed, and in which account their work is kept.
@@ -63,6 +68,13 @@ pub trait Force<const D: usize>: Send + Sync {
     /// Energy per volume of a node's cell, summed over the nodes of a piece, in J/m³; `None` without a potential.
     fn energy(&self, _now: &Now<'_>, _piece: usize) -> Option<f64> {
         None
+    }
+
+    /// What the bonds held per volume that are broken in `to` and not in `from`, the state a step before, summed over the
+    /// nodes of a piece, in J/m³: as the ledger counts it half way between the two, ½(e + e') − ¼(f' − f)·(η' − η), e the
+    /// energy of a bond and f its pull; for a linear law ½ηᵀkη'.
+    fn released(&self, _from: &Now<'_>, _to: &Now<'_>, _piece: usize) -> f64 {
+        0.0
     }
 
     /// Places in a field on which it acts, where these are known beforehand, as those of a load on some nodes are.

@@ -25,8 +25,23 @@ pub struct LatticeStencil<const D: usize, L> {
 /// A node from which bonds are missing.
 struct Partial {
     place: usize,
-    /// Bits of the bonds that exist, two for each of the half family: forward, then backward.
     mask: Vec<u64>,
+}
+
+/// Bits of the bonds of a node that exist, two for each of the half family: forward, then backward.
+pub(super) fn mask<const D: usize>(
+    family: &[FamilyBond<D>],
+    node: [isize; D],
+    present: &impl Present<D>,
+) -> Vec<u64> {
+    let mut mask = vec![0_u64; (2 * family.len()).div_ceil(64)];
+    for (index, bond) in family.iter().enumerate() {
+        for (bit, offset) in [bond.offset, bond.offset.map(|n| -n)].into_iter().enumerate() {
+            let bit = 2 * index + bit;
+            mask[bit / 64] |= u64::from(present(node, offset)) << (bit % 64);
+        }
+    }
+    mask
 }
 
 impl<const D: usize, L: Law> LatticeStencil<D, L> {
@@ -41,13 +56,7 @@ impl<const D: usize, L: Law> LatticeStencil<D, L> {
         let mut partial: Vec<Vec<Partial>> = (0..grid.pieces()).map(|_| Vec::new()).collect();
         for node in grid.each().filter(|&node| nodes(node) && !complete(node)) {
             let place = grid.place(node);
-            let mut mask = vec![0_u64; (2 * family.len()).div_ceil(64)];
-            for (index, bond) in family.iter().enumerate() {
-                for (bit, offset) in [bond.offset, bond.offset.map(|n| -n)].into_iter().enumerate() {
-                    let bit = 2 * index + bit;
-                    mask[bit / 64] |= u64::from(present(node, offset)) << (bit % 64);
-                }
-            }
+            let mask = mask(family, node, present);
             partial[(place - grid.body().start) / grid.piece()].push(Partial { place, mask });
         }
         Self {

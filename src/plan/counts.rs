@@ -3,10 +3,11 @@
 //! By the sizes alone where the body is a whole rectangle of equal weights; node by node where notches or holes cut it,
 //! or weights are corrected.
 
+use crate::breaking::RunningNotches;
 use crate::connectivity::Connectivity;
 use crate::constraints::Edge;
 use crate::forces::surface::Factors;
-use crate::forces::{BondList, Finite, LatticeStencil, Small, family};
+use crate::forces::{BondList, Finite, LatticeStencil, Listed, Masks, Small, family};
 use crate::grid::Grid;
 use crate::lattice::Stencil;
 use crate::model::surface_factors;
@@ -34,21 +35,28 @@ struct Served {
     whole: usize,
     band_nodes: usize,
     band_ends: u64,
+    /// Nodes whose bonds may break.
+    breaking_nodes: usize,
+    breaking_ends: u64,
 }
 
 impl Counts {
     pub fn of<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>, grid: &Grid<D>) -> Self {
         let connectivity = Connectivity::of(scene);
         let factors = surface_factors(scene, &family(stencil, scene.modulus(), scene.spacing), grid);
+        let offsets: Vec<[i32; D]> = stencil.bonds.iter().map(|bond| bond.offset).collect();
+        let breaking = RunningNotches::of(scene, &offsets, grid);
         let served = match &factors {
             None if connectivity.intact() => by_sizes(scene, stencil, grid),
-            factors => by_nodes(stencil, grid, &connectivity, factors.as_ref()),
+            factors => by_nodes(stencil, grid, &connectivity, factors.as_ref(), breaking.as_ref()),
         };
         Self {
-            ends: served.ends + served.band_ends,
+            ends: served.ends + served.band_ends + served.breaking_ends,
             band: served.band_nodes as u64,
             largest_factor: factors.map_or(1.0, |factors| factors.largest(grid)),
-            bytes: state_bytes(scene, grid) + operator_bytes(scene, stencil, &served),
+            bytes: state_bytes(scene, grid)
+                + operator_bytes(scene, stencil, &served)
+                + breaking.map_or(0, |breaking| breaking.bytes()),
         }
     }
 }
@@ -72,7 +80,15 @@ fn operator_bytes<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>, served
             LatticeStencil::<D, Small>::bytes_for(stencil.bonds.len(), served.runs, partial)
         }
     };
-    own + list(served.band_nodes, served.band_ends)
+    let listed = match scene.rotations {
+        Rotations::Small => Listed::<D, Small>::bytes_for,
+        Rotations::Finite => Listed::<D, Finite>::bytes_for,
+    };
+    let breaking = match scene.operator {
+        Operator::Bonds => listed(served.breaking_nodes, served.breaking_ends),
+        Operator::Stencil => Masks::<D>::bytes_for(stencil.bonds.len(), served.breaking_nodes),
+    };
+    own + list(served.band_nodes, served.band_ends) + breaking
 }
 
 /// Node by node.
@@ -81,13 +97,19 @@ fn by_nodes<const D: usize>(
     grid: &Grid<D>,
     connectivity: &Connectivity<D>,
     factors: Option<&Factors<D>>,
+    breaking: Option<&RunningNotches>,
 ) -> Served {
     let mut served = Served::default();
     let mut whole = vec![false; grid.cells()];
     for node in grid.each() {
         let both = stencil.bonds.iter().flat_map(|bond| [bond.offset, bond.offset.map(|n| -n)]);
         let ends = both.filter(|&offset| connectivity.present(node, offset)).count();
-        if factors.is_none_or(|factors| factors.neutral(node)) {
+        let may_break =
+            |breaking: &RunningNotches| breaking.breakable().first_word(grid.number(node)).is_some();
+        if breaking.is_some_and(may_break) {
+            served.breaking_nodes += 1;
+            served.breaking_ends += ends as u64;
+        } else if factors.is_none_or(|factors| factors.neutral(node)) {
             served.nodes += 1;
             served.ends += ends as u64;
             whole[grid.number(node)] = ends == 2 * stencil.bonds.len();

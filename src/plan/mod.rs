@@ -2,6 +2,7 @@
 
 mod checks;
 mod counts;
+mod running;
 mod step;
 
 pub use step::stable_time_step;
@@ -41,6 +42,8 @@ pub struct Plan {
     pub node_updates: u64,
     /// Each bond once per step.
     pub bond_updates: u64,
+    /// Steps in which the fastest running notch passes a cell, Δx/(vΔt).
+    pub steps_per_cell: Option<f64>,
 }
 
 impl Plan {
@@ -58,6 +61,11 @@ impl Plan {
 
     /// The same for a scene that is to be found at rest: no time step, no steps.
     pub fn at_rest<const D: usize>(scene: &Scene<D>) -> Result<Self, Wrong> {
+        if let Some(running) = scene.running.first() {
+            let message = "a body whose notch runs does not come to rest";
+            let help = "leave runs out, or give the notch the length at which rest is sought";
+            return Err(Wrong::new(format!("notch[{}].runs", running.notch), message, help));
+        }
         Self::with_steps(scene, |_, _| Ok((0.0, 0.0, 0)))
     }
 
@@ -68,6 +76,7 @@ impl Plan {
     ) -> Result<Self, Wrong> {
         let stencil = checks::body(scene)?;
         checks::holes(scene)?;
+        running::check(scene)?;
         let grid = scene.grid(stencil.reach());
         checks::left(scene, &grid)?;
         checks::probes(scene, &grid)?;
@@ -99,6 +108,7 @@ impl Plan {
             steps,
             node_updates: nodes.saturating_mul(steps),
             bond_updates: (counts.ends / 2).saturating_mul(steps),
+            steps_per_cell: running::steps_per_cell(scene, time_step),
         })
     }
 
@@ -188,6 +198,7 @@ fn effects<const D: usize>(scene: &Scene<D>) -> (Vec<String>, Vec<String>) {
     say(true, &format!("{law} rotations"));
     say(scene.lattice.calibrated, "lattice calibration");
     say(!scene.notches.is_empty(), "notch");
+    say(!scene.running.is_empty(), "running notch");
     say(!scene.holes.is_empty(), "hole");
     say(scene.surface != Correction::None, "surface correction");
     say(!scene.displacement.is_empty(), "initial displacement");

@@ -26,6 +26,7 @@ pub(super) fn book<const D: usize>(
                 balance.loads,
                 balance.rates,
                 balance.constraints,
+                balance.cut_bonds,
             ]);
         }
     }
@@ -49,7 +50,14 @@ pub(super) fn trace<const D: usize>(probe: &Probe<D>, grid: &Grid<D>) -> Trace {
         Watch::Line { along, through } => line(grid, along, through).flat_map(of_node).collect(),
         Watch::Patch { from, to } => Patch::of(grid, from, to).each().flat_map(of_both).collect(),
         Watch::Energies => {
-            let names = ["kinetic", "elastic", "work_of_loads", "work_of_damping", "work_of_driven_nodes"];
+            let names = [
+                "kinetic",
+                "elastic",
+                "work_of_loads",
+                "work_of_damping",
+                "work_of_driven_nodes",
+                "energy_of_cut_bonds",
+            ];
             names.map(|name| whole(name, "J")).to_vec()
         }
         Watch::Momentum => ["momentum_x", "momentum_y"][..D].iter().map(|name| whole(name, "N s")).collect(),

@@ -11,6 +11,7 @@ mod notch;
 mod place;
 mod positive;
 mod probe;
+mod running;
 pub(crate) mod snapshot;
 mod time;
 mod wrong;
@@ -19,10 +20,12 @@ pub use effect::{Acts, Effect, Setting};
 pub use history::{History, HistoryAsked, HistoryShape};
 pub use hole::{Hole, HoleAsked};
 pub use initial::{Initial, InitialAsked, Quantity, Shape};
+pub(crate) use notch::SLACK;
 pub use notch::{Notch, NotchAsked};
 pub use place::{Axis, Region, Side};
 pub use positive::Positive;
 pub use probe::{Probe, Watch};
+pub use running::{Running, RunsAsked};
 pub use snapshot::Snapshots;
 pub use time::{StepRule, Time};
 pub use wrong::Wrong;
@@ -77,6 +80,8 @@ pub struct Scene<const D: usize> {
     pub edges: Edges<D>,
     /// Cuts through a plate; a bar has none.
     pub notches: Vec<Notch>,
+    /// Which of them run, and how.
+    pub running: Vec<Running>,
     /// Round holes through a plate; a bar has none.
     pub holes: Vec<Hole>,
     /// For bonds near free edges, notches and holes.
@@ -116,6 +121,7 @@ impl<const D: usize> Scene<D> {
             operator: Operator::Stencil,
             edges: Edges::default(),
             notches: Vec::new(),
+            running: Vec::new(),
             holes: Vec::new(),
             surface: Correction::None,
             displacement: Vec::new(),

@@ -4,7 +4,7 @@
 //! sides and it crosses the line between the tips, the tips included. Both are decided to 1e-9 of the spacing, so that
 //! a notch drawn through nodes does not depend on rounding.
 
-use super::Wrong;
+use super::{RunsAsked, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -14,8 +14,10 @@ use serde::Deserialize;
 pub struct NotchAsked {
     /// One end, in m.
     pub from_m: [f64; 2],
-    /// The other end.
+    /// The other end: the tip, where the notch runs.
     pub to_m: [f64; 2],
+    /// Whether its tip goes on, cutting bonds as it passes them.
+    pub runs: Option<RunsAsked>,
 }
 
 /// A notch from one end to the other, in m.
@@ -26,7 +28,7 @@ pub struct Notch {
 }
 
 /// What is taken for nothing, in spacings.
-const SLACK: f64 = 1e-9;
+pub(crate) const SLACK: f64 = 1e-9;
 
 impl NotchAsked {
     /// The notch, refused where it leaves a plate of this size or is shorter than a cell.
@@ -53,12 +55,18 @@ impl NotchAsked {
 }
 
 impl Notch {
-    fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         libm::hypot(self.to[0] - self.from[0], self.to[1] - self.from[1])
     }
 
     /// Whether it cuts the bond from a to b, in m.
     pub fn cuts(&self, a: [f64; 2], b: [f64; 2], spacing: f64) -> bool {
+        let (slack, length) = (SLACK * spacing, self.length());
+        self.crossing(a, b, spacing).is_some_and(|way| (-slack..=length + slack).contains(&way))
+    }
+
+    /// Where the bond from a to b crosses its line, in m from its beginning; `None` where both ends are on one side.
+    pub(crate) fn crossing(&self, a: [f64; 2], b: [f64; 2], spacing: f64) -> Option<f64> {
         let (slack, length) = (SLACK * spacing, self.length());
         let along = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         // How far a point lies to the left of the line of the notch, in m.
@@ -66,13 +74,12 @@ impl Notch {
             |x: [f64; 2]| (along[0] * (x[1] - self.from[1]) - along[1] * (x[0] - self.from[0])) / length;
         let (left_a, left_b) = (left(a), left(b));
         if (left_a >= -slack) == (left_b >= -slack) {
-            return false;
+            return None;
         }
         let share = (left_a / (left_a - left_b)).clamp(0.0, 1.0);
         let crossing = [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
         let unit = along.map(|x| x / length);
-        let way = unit[0] * (crossing[0] - self.from[0]) + unit[1] * (crossing[1] - self.from[1]);
-        (-slack..=length + slack).contains(&way)
+        Some(unit[0] * (crossing[0] - self.from[0]) + unit[1] * (crossing[1] - self.from[1]))
     }
 
     /// The same notch with a coordinate mirrored about a place.
@@ -125,8 +132,9 @@ mod tests {
 
     #[test]
     fn notches_outside_and_tiny_ones_are_refused() {
-        let asked =
-            |from_m, to_m| NotchAsked { from_m, to_m }.check([4.0, 3.0], 1.0).map_err(|wrong| wrong.key);
+        let asked = |from_m, to_m| {
+            NotchAsked { from_m, to_m, runs: None }.check([4.0, 3.0], 1.0).map_err(|wrong| wrong.key)
+        };
         assert_eq!(asked([0.0, 1.0], [5.0, 1.0]), Err("to_m".into()));
         assert_eq!(asked([0.0, -1.0], [2.0, 1.0]), Err("from_m".into()));
         assert_eq!(asked([1.0, 1.0], [1.5, 1.0]), Err("to_m".into()));

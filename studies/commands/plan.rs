@@ -157,6 +157,7 @@ mod tests {
                 steps: 2000,
                 node_updates: 2_000_000,
                 bond_updates: 6_000_000,
+                steps_per_cell: None,
             }]
         }
 

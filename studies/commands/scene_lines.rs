@@ -58,6 +58,10 @@ impl SceneLines {
         for (what, bytes) in held.into_iter().filter(|(_, bytes)| *bytes > 0) {
             lines.push(Line::Text(format!("  {what:<12} {:.3} MB in memory", bytes as f64 / 1e6)));
         }
+        let paces = scenes.iter().filter_map(|scene| scene.steps_per_cell);
+        if let Some(fewest) = paces.reduce(f64::min) {
+            lines.push(Line::Text(format!("  a notch runs over a cell in {fewest:.1} steps")));
+        }
         let names = shown.iter().map(|scene| scene.name.chars().count());
         let width = names.max().unwrap_or(0).clamp("scene".len(), WIDEST);
         lines.iter().map(|line| line.set(width) + "\n").collect()
@@ -176,6 +180,7 @@ mod tests {
             steps: 4000,
             node_updates: 4_000_000,
             bond_updates: 12_000_000,
+            steps_per_cell: None,
         }
     }
 

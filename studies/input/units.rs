@@ -1,7 +1,7 @@
 //! Units in keys: SI is the form of record (`dx_m`); common others (`dx_mm`) are converted on reading.
 
 /// Endings that are read, the SI ending they stand for, and the exact power of ten between them.
-const ENDINGS: [(&str, &str, i32); 21] = [
+const ENDINGS: [(&str, &str, i32); 27] = [
     ("_kpa", "_pa", 3),
     ("_mpa", "_pa", 6),
     ("_gpa", "_pa", 9),
@@ -13,6 +13,12 @@ const ENDINGS: [(&str, &str, i32); 21] = [
     ("_ns", "_s", -9),
     ("_us", "_s", -6),
     ("_ms", "_s", -3),
+    ("_km_s", "_m_s", 3),
+    ("_mm_s", "_m_s", -3),
+    ("_mm_us", "_m_s", 3),
+    ("_m_ms", "_m_s", 3),
+    ("_m_us", "_m_s", 6),
+    ("_m_ns", "_m_s", 9),
     ("_g_cm3", "_kg_m3", 3),
     ("_kg_mm3", "_kg_m3", 9),
     ("_per_km", "_per_m", -3),
@@ -62,11 +68,12 @@ pub fn other_units(key: &str) -> Vec<String> {
 }
 
 /// The other units of a key as a message names them; what is written most comes first.
-const NAMED: [(&str, &str); 6] = [
+const NAMED: [(&str, &str); 7] = [
     ("_kg_m3", "_g_cm3"),
     ("_per_m", "_per_mm, _per_um, …"),
     ("_per_s", "_per_ms, _per_us, …"),
     ("_pa", "_mpa, _gpa, …"),
+    ("_m_s", "_km_s, _mm_us, …"),
     ("_m", "_mm, _um, …"),
     ("_s", "_ms, _us, …"),
 ];

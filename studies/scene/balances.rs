@@ -1,6 +1,7 @@
 //! What a march must keep whatever its loads do: the energy ledger, and momentum against the impulse of the loads.
 
 use super::either::Either;
+use pd_verify::breaking::Broken;
 use pd_verify::constraints::Edge;
 use pd_verify::forces::{Class, Force, Now};
 use pd_verify::grid::Grid;
@@ -17,10 +18,10 @@ pub fn asked_for(probe: &str) -> bool {
     !probe.starts_with('(')
 }
 
-/// Largest change of kinetic + elastic − works over the largest account. Without motion there is none.
+/// Largest change of kinetic + elastic − works + energy of cut bonds over the largest account. Without motion there is none.
 pub fn energy_change(record: &Record) -> Option<f64> {
     let rows = &record.trace(BALANCE)?.rows;
-    let closed = |row: &Vec<f64>| row[0] + row[1] - row[2] - row[3] - row[4];
+    let closed = |row: &Vec<f64>| row[0] + row[1] - row[2] - row[3] - row[4] + row[5];
     let first = closed(rows.first()?);
     let largest = largest(rows.iter().flatten().copied());
     let change = largest_of(rows.iter().map(|row| closed(row) - first));
@@ -131,7 +132,7 @@ fn push<const D: usize>(loads: &[Box<dyn Force<D>>], grid: &Grid<D>, time: f64, 
         return total;
     }
     let still = grid.field();
-    let now = Now { displacement: &still, increment: &still, time, time_step };
+    let now = Now { displacement: &still, increment: &still, time, time_step, broken: Broken::none() };
     let mut field = grid.field();
     for (piece, sum) in field[grid.body()].chunks_mut(grid.piece()).enumerate() {
         loads.iter().for_each(|load| load.add(&now, piece, sum));

@@ -9,8 +9,8 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
 use pd_verify::scene::{
-    Effect, Hole, HoleAsked, Initial, InitialAsked, Notch, NotchAsked, Positive, Probe, Quantity, Scene,
-    Watch, Wrong,
+    Effect, Hole, HoleAsked, Initial, InitialAsked, Notch, NotchAsked, Positive, Probe, Quantity, Running,
+    Scene, Watch, Wrong,
 };
 use std::sync::Arc;
 
@@ -28,6 +28,12 @@ fn notches<const D: usize>(asked: &MarchAsked, nodes: [usize; D], spacing: f64) 
         notch.check(size, spacing).map_err(|wrong| wrong.inside(&format!("notch[{index}]")))
     };
     written.iter().enumerate().map(one).collect()
+}
+
+/// Those of them that run.
+fn running(asked: &MarchAsked) -> Vec<Running> {
+    let written = asked.notch.iter().flatten().enumerate();
+    written.filter_map(|(index, notch)| Some(notch.runs.as_ref()?.of(index))).collect()
 }
 
 /// The holes of a plate.
@@ -70,6 +76,7 @@ pub fn scene<const D: usize>(
         operator: asked.operator.unwrap_or_default(),
         edges,
         notches: notches::<D>(asked, nodes, spacing)?,
+        running: running(asked),
         holes: holes::<D>(asked, nodes, spacing)?,
         surface: asked.surface_correction.unwrap_or_default(),
         displacement: initial(asked, Quantity::Displacement)?,

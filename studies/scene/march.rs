@@ -194,7 +194,7 @@ impl Question for March {
     fn equations(&self) -> &'static str {
         "ρü(x) = Σ w (ξ⊗ξ/|ξ|²)(u(x + ξ) − u(x)) + b, or with finite rotations Σ w e y/|y|, y = ξ + η, e = |y| − |ξ|
 leapfrog: v(n + ½) = v(n − ½) + Δt a(n), u(n + 1) = u(n) + Δt v(n + ½); v(n) = (u(n + 1) − u(n − 1))/2Δt
-ledger: ½ρV Σ v(n + ½)² + ½ u(n)ᵀK u(n + 1) − work is constant; momentum: P(t) = P(0) + ∫ loads dt"
+ledger: ½ρV Σ v(n + ½)² + ½ u(n)ᵀK u(n + 1) − work + energy of cut bonds is constant; momentum: P(t) = P(0) + ∫ loads dt"
     }
 
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {

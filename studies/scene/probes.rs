@@ -147,7 +147,15 @@ pub fn quantities(watches: WatchName, dimension: usize) -> &'static [&'static st
         WatchName::Strain => &["strain"],
         WatchName::Momentum => &["momentum_x", "momentum_y"][..dimension],
         WatchName::Energies => {
-            &["kinetic", "elastic", "work_of_loads", "work_of_damping", "work_of_driven_nodes"]
+            const ACCOUNTS: [&str; 6] = [
+                "kinetic",
+                "elastic",
+                "work_of_loads",
+                "work_of_damping",
+                "work_of_driven_nodes",
+                "energy_of_cut_bonds",
+            ];
+            &ACCOUNTS
         }
     }
 }

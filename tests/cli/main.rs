@@ -10,6 +10,7 @@ mod place;
 mod refinements;
 mod refusals;
 mod results;
+mod running;
 mod scenes;
 mod settings;
 mod snapshots;

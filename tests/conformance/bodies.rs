@@ -1,5 +1,6 @@
 //! Small bodies, lattices, edges and rough fields on which every implementation is tried, and sums over their bonds.
 
+use pd_verify::breaking::Broken;
 use pd_verify::connectivity::Connectivity;
 use pd_verify::constraints::{Edge, Edges};
 use pd_verify::forces::surface::Correction;
@@ -65,6 +66,7 @@ pub fn scene<const D: usize>(lattice: Lattice, nodes: [usize; D]) -> Scene<D> {
         operator: Operator::Stencil,
         edges: Edges::default(),
         notches: vec![],
+        running: vec![],
         holes: vec![],
         surface: Correction::None,
         displacement: vec![],
@@ -177,7 +179,7 @@ pub fn rough<const D: usize>(model: &Model<D>, seed: u64, size: f64) -> Vec<f64>
 
 /// A state at rest.
 pub fn still(displacement: &[f64]) -> Now<'_> {
-    Now { displacement, increment: displacement, time: 0.0, time_step: 1.0 }
+    Now { displacement, increment: displacement, time: 0.0, time_step: 1.0, broken: Broken::none() }
 }
 
 /// The force of a model at rest; what no force reaches is not a number.

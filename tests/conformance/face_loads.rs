@@ -1,6 +1,7 @@
 //! Tractions on the faces of notches, held against coordinates, sums that must vanish, and plates pulled at their edges.
 
 use crate::bodies::{constant, effect, model, scene};
+use pd_verify::breaking::Broken;
 use pd_verify::constraints::PrescribedMotion;
 use pd_verify::forces::{FaceTraction, Now, Traction};
 use pd_verify::march::March;
@@ -32,7 +33,9 @@ fn faces(normal: f64, shear: f64) -> Arc<dyn Effect<2>> {
 fn loads(scene: &Scene<2>, own: &Model<2>) -> Vec<([f64; 2], [f64; 2])> {
     let still = own.grid.field();
     let mut field = own.grid.field();
-    own.force(&Now { displacement: &still, increment: &still, time: 0.0, time_step: 1e-7 }, &mut field);
+    let now =
+        Now { displacement: &still, increment: &still, time: 0.0, time_step: 1e-7, broken: Broken::none() };
+    own.force(&now, &mut field);
     let of = |node| {
         let place = own.grid.place(node);
         (own.grid.position(node).map(|x| x / scene.spacing), [field[place], field[place + own.grid.stride()]])

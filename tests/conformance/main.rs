@@ -15,6 +15,7 @@ mod notched;
 mod patches;
 mod probes;
 mod refused;
+mod running;
 mod snapshots;
 mod wrong;
 
