@@ -198,8 +198,8 @@ fn effects<const D: usize>(scene: &Scene<D>) -> (Vec<String>, Vec<String>) {
     say(true, &format!("{law} rotations"));
     say(scene.lattice.calibrated, "lattice calibration");
     say(!scene.notches.is_empty(), "notch");
-    say(!scene.running.is_empty(), "running notch");
     say(!scene.holes.is_empty(), "hole");
+    say(!scene.running.is_empty(), "running notch");
     say(scene.surface != Correction::None, "surface correction");
     say(!scene.displacement.is_empty(), "initial displacement");
     say(!scene.velocity.is_empty(), "initial velocity");
