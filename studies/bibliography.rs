@@ -1,7 +1,7 @@
 //! The publications that claims cite, as BibTeX. Only what is known for certain is filled in.
 
 /// What a citation contains, and its entry.
-const ENTRIES: [(&str, &str); 10] = [
+const ENTRIES: [(&str, &str); 13] = [
     (
         "Silling 2000",
         "@article{silling2000,
@@ -116,6 +116,40 @@ const ENTRIES: [(&str, &str); 10] = [
   author = {Bouaraquia, O.},
   note   = {Bond-based peridynamics with constant and Gaussian kernels: dispersion, 1D bar, dynamic stress intensity factors},
   year   = {2024}
+}
+",
+    ),
+    (
+        "Freund 1990",
+        "@book{freund1990,
+  author    = {Freund, L. B.},
+  title     = {Dynamic Fracture Mechanics},
+  publisher = {Cambridge University Press},
+  year      = {1990}
+}
+",
+    ),
+    (
+        "Chen 1975",
+        "@article{chen1975,
+  author  = {Chen, Y. M.},
+  title   = {Numerical computation of dynamic stress intensity factors by a Lagrangian finite-difference method (the HEMP code)},
+  journal = {Engineering Fracture Mechanics},
+  volume  = {7},
+  pages   = {653--660},
+  year    = {1975}
+}
+",
+    ),
+    (
+        "Williams 1957",
+        "@article{williams1957,
+  author  = {Williams, M. L.},
+  title   = {On the stress distribution at the base of a stationary crack},
+  journal = {Journal of Applied Mechanics},
+  volume  = {24},
+  pages   = {109--114},
+  year    = {1957}
 }
 ",
     ),

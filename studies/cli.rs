@@ -35,6 +35,13 @@ pub enum Command {
         #[command(flatten)]
         options: RunOptions,
     },
+    /// Dynamic stress intensity factors against exact histories: the shipped studies, or the files given
+    Dsif {
+        /// Study files; none means the shipped studies
+        files: Vec<PathBuf>,
+        #[command(flatten)]
+        options: RunOptions,
+    },
     /// Run study files of any kind
     Run {
         /// Study files

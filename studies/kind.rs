@@ -3,7 +3,7 @@
 use crate::input::{Refusal, nearest};
 use crate::question::Question;
 use crate::written::{Word, Written};
-use crate::{bar, convergence, dispersion, scene};
+use crate::{bar, convergence, dispersion, dsif, scene};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -17,12 +17,14 @@ pub enum Kind {
     Bar,
     /// How errors fall with the horizon, the spacing, or both.
     Convergence,
+    /// Dynamic stress intensity factors of cracks in plates.
+    Dsif,
     /// A scene of one's own, marched in time.
     Scene,
 }
 
 impl Kind {
-    pub const ALL: [Self; 4] = [Self::Dispersion, Self::Bar, Self::Convergence, Self::Scene];
+    pub const ALL: [Self; 5] = [Self::Dispersion, Self::Bar, Self::Convergence, Self::Dsif, Self::Scene];
 
     /// The word in study files; also the command and the folder of the shipped studies.
     pub fn word(self) -> &'static str {
@@ -30,6 +32,7 @@ impl Kind {
             Self::Dispersion => "dispersion",
             Self::Bar => "bar",
             Self::Convergence => "convergence",
+            Self::Dsif => "dsif",
             Self::Scene => "scene",
         }
     }
@@ -40,6 +43,7 @@ impl Kind {
             Self::Dispersion => dispersion::WORDS,
             Self::Bar => bar::WORDS,
             Self::Convergence => convergence::WORDS,
+            Self::Dsif => dsif::WORDS,
             Self::Scene => scene::WORDS,
         }
     }
@@ -50,6 +54,7 @@ impl Kind {
             Self::Dispersion => dispersion::TABLES,
             Self::Bar => bar::TABLES,
             Self::Convergence => convergence::TABLES,
+            Self::Dsif => dsif::TABLES,
             Self::Scene => scene::TABLES,
         }
     }
@@ -60,6 +65,7 @@ impl Kind {
             Self::Dispersion => dispersion::SUFFIXES,
             Self::Bar => bar::SUFFIXES,
             Self::Convergence => convergence::SUFFIXES,
+            Self::Dsif => dsif::SUFFIXES,
             Self::Scene => &[],
         }
     }

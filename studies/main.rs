@@ -10,6 +10,7 @@ mod cli;
 mod commands;
 mod convergence;
 mod dispersion;
+mod dsif;
 mod input;
 mod kind;
 mod levels;
@@ -59,6 +60,9 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
         }
         Command::Convergence { files, options } => {
             judge::shipped_or_files(Kind::Convergence, &files, &options).map(judge::End::code)
+        }
+        Command::Dsif { files, options } => {
+            judge::shipped_or_files(Kind::Dsif, &files, &options).map(judge::End::code)
         }
         Command::Run { files, options } => judge::files(&files, &options).map(judge::End::code),
         Command::List { json } => print(&list::list(json)?),

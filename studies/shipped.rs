@@ -20,6 +20,12 @@ pub const SHIPPED: &[(&str, &str)] = &[
     ("studies/convergence/rest.toml", include_str!("convergence/rest.toml")),
     ("studies/convergence/rules.toml", include_str!("convergence/rules.toml")),
     ("studies/convergence/plates.toml", include_str!("convergence/plates.toml")),
+    ("studies/dsif/tips.toml", include_str!("dsif/tips.toml")),
+    ("studies/dsif/edges.toml", include_str!("dsif/edges.toml")),
+    ("studies/dsif/faces.toml", include_str!("dsif/faces.toml")),
+    ("studies/dsif/plates.toml", include_str!("dsif/plates.toml")),
+    ("studies/dsif/hybrid.toml", include_str!("dsif/hybrid.toml")),
+    ("studies/dsif/running.toml", include_str!("dsif/running.toml")),
 ];
 
 /// All shipped studies of a kind (or all), with `--set` changes; a setting that no study has a place for is refused.
@@ -113,6 +119,9 @@ mod tests {
         // 15 s, some 4·10⁷ updates of nodes in a plate a second.
         let refined = effort(Kind::Convergence);
         assert!(refined.node_updates > 0 && refined.node_updates < 600_000_000, "{refined:?}");
+        // The same 15 s for plates with a crack.
+        let cracks = effort(Kind::Dsif);
+        assert!(cracks.node_updates > 0 && cracks.node_updates < 600_000_000, "{cracks:?}");
     }
 
     #[test]

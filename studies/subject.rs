@@ -19,6 +19,8 @@ use pd_verify::model::Model;
 use pd_verify::record::{self, Failure, Record};
 use pd_verify::scene::Scene;
 use pd_verify::statics;
+use pd_verify::stress_intensity::running::Running;
+use pd_verify::stress_intensity::{Elastic, Faces, Reading, Tip, Unreadable};
 use pd_verify_reference::released_bar::ReleasedBar;
 
 /// What studies ask of a peridynamics code.
@@ -136,6 +138,22 @@ pub trait Subject: Sync {
     /// Force density in N/m³ of the bonds alone on a plate's nodes at the displacement of t = 0, row by row.
     fn bond_force_plate(&self, scene: &Scene<2>) -> Result<Vec<[f64; 2]>, String> {
         bond_force(scene)
+    }
+
+    /// K_I and K_II in Pa√m, read from the nodes around a tip whose faces bear a uniform stress.
+    fn stress_intensity(
+        &self,
+        reading: &Reading,
+        displacement: &[[f64; 2]],
+        acceleration: &[[f64; 2]],
+        faces: Faces,
+    ) -> [f64; 2] {
+        reading.at_loaded(displacement, acceleration, faces)
+    }
+
+    /// How K of a running tip is read at one look.
+    fn running_reading(&self, fit: &Running, tip: &Tip, elastic: &Elastic) -> Result<Reading, Unreadable> {
+        fit.reading(tip, elastic)
     }
 
     /// The published Fourier series of a released bar's displacement.

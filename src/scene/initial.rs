@@ -1,6 +1,8 @@
 //! Fields over a body, as sums of a few shapes: displacements or velocities at t = 0, body forces, held displacements.
 
 use super::Axis;
+use crate::stress_intensity::eigenfunction::term;
+use crate::stress_intensity::{Elastic, Mode};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,6 +29,8 @@ pub enum Shape<const D: usize> {
     Wave { wavenumber: [f64; D], phase: f64 },
     /// Π (x_a − about_a)^power_a, in m to the sum of the powers: the amplitude is a strain, a curvature and so on.
     Monomial { about: [f64; D], powers: [u8; D] },
+    /// The displacement in m near the tip of a crack along −x where K is 1 Pa√m: the amplitude is K over that.
+    NearTip { tip: [f64; D], mode: Mode, elastic: Elastic },
 }
 
 impl<const D: usize> Initial<D> {
@@ -43,6 +47,11 @@ impl<const D: usize> Initial<D> {
             Shape::Wave { wavenumber, phase } => libm::cos(dot(wavenumber) + phase),
             Shape::Monomial { about, powers } => {
                 (0..D).map(|axis| (x[axis] - about[axis]).powi(i32::from(powers[axis]))).product()
+            }
+            Shape::NearTip { tip, mode, elastic } => {
+                let from_tip =
+                    [0, 1].map(|axis| x.get(axis).zip(tip.get(axis)).map_or(0.0, |(x, tip)| x - tip));
+                term(&elastic, 1, mode).displacement(from_tip)[self.component]
             }
         };
         self.amplitude * shape

@@ -20,7 +20,7 @@ mod theory;
 pub mod volume_rules;
 mod volume_rules_report;
 pub mod wave;
-mod whole;
+pub mod whole;
 
 use crate::written::Word;
 

@@ -1,6 +1,7 @@
 //! The program as its users meet it: exit codes, messages, and the files it writes or leaves alone.
 
 mod commands;
+mod cracks;
 #[cfg(unix)]
 mod holed;
 mod interruption;

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// Commands with shipped studies, and the folders of these.
-const KINDS: [&str; 3] = ["dispersion", "bar", "convergence"];
+const KINDS: [&str; 4] = ["dispersion", "bar", "convergence", "dsif"];
 
 /// Name and text of every shipped study file.
 pub fn shipped() -> Vec<(String, String)> {

@@ -3,6 +3,7 @@
 
 mod bar_faults;
 mod convergence_faults;
+mod dsif_faults;
 mod faults;
 mod oracles;
 
@@ -17,8 +18,12 @@ use pd_verify::verdict::Verdict;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-fn verdicts(studies: &[Study], profile: Profile, subject: &dyn Subject) -> BTreeMap<String, Verdict> {
-    let judged = studies.iter().flat_map(|study| run(study, profile, subject, &Silent).judged);
+fn verdicts<'s>(
+    studies: impl IntoIterator<Item = &'s Study>,
+    profile: Profile,
+    subject: &dyn Subject,
+) -> BTreeMap<String, Verdict> {
+    let judged = studies.into_iter().flat_map(|study| run(study, profile, subject, &Silent).judged);
     let ran = judged.filter(|judged| judged.verdict != Verdict::Skipped);
     ran.map(|judged| (judged.claim.id, judged.verdict)).collect()
 }
@@ -47,35 +52,63 @@ fn every_fault_in_refinements_is_caught_and_every_claim_about_them_can_fail() {
     check(Kind::Convergence, Profile::Quick, convergence_faults::all());
 }
 
+/// Each fault is looked for in the studies that have its ingredient: all of them with all faults would take too long.
+#[test]
+fn every_fault_in_cracked_plates_is_caught_and_every_claim_about_them_can_fail() {
+    let studies = shipped(Some(Kind::Dsif), &[]).expect("the shipped studies are sound");
+    let sound = verdicts(&studies, Profile::Quick, &PdVerify);
+    must_be_sound(&sound);
+    let lost: Vec<(&str, BTreeSet<String>)> = dsif_faults::all()
+        .par_iter()
+        .map(|fault| {
+            let mine: Vec<&Study> =
+                studies.iter().filter(|study| fault.studies.contains(&study.id.as_str())).collect();
+            assert_eq!(mine.len(), fault.studies.len(), "{}", fault.name);
+            (fault.name, lost(&sound, &verdicts(mine, Profile::Quick, fault.subject.as_ref())))
+        })
+        .collect();
+    all_must_be_lost(&sound, &lost);
+}
+
 /// The quick profile stands for the others where these would take too long.
 #[test]
-fn refinements_ask_nothing_that_the_quick_profile_does_not() {
-    let studies = shipped(Some(Kind::Convergence), &[]).expect("the shipped studies are sound");
-    let asked = |quick: bool| -> BTreeSet<String> {
-        let cases = studies.iter().flat_map(|study| &study.cases);
-        cases.filter(|case| (case.profile == Profile::Quick) == quick).map(|case| case.asks.clone()).collect()
-    };
-    let only_slow: Vec<_> = asked(false).difference(&asked(true)).cloned().collect();
-    assert!(only_slow.is_empty(), "{only_slow:?}");
+fn slow_cases_ask_nothing_that_the_quick_profile_does_not() {
+    for kind in [Kind::Convergence, Kind::Dsif] {
+        let studies = shipped(Some(kind), &[]).expect("the shipped studies are sound");
+        let asked = |quick: bool| -> BTreeSet<String> {
+            let cases = studies.iter().flat_map(|study| &study.cases);
+            let cases = cases.filter(|case| (case.profile == Profile::Quick) == quick);
+            cases.map(|case| case.asks.clone()).collect()
+        };
+        let only_slow: Vec<_> = asked(false).difference(&asked(true)).cloned().collect();
+        assert!(only_slow.is_empty(), "{only_slow:?}");
+    }
 }
 
 /// Runs the shipped studies of a kind with each fault.
 fn check(kind: Kind, profile: Profile, faults: Vec<(&'static str, Box<dyn Subject + Send>)>) {
     let studies = shipped(Some(kind), &[]).expect("the shipped studies are sound");
     let sound = verdicts(&studies, profile, &PdVerify);
-    let bad: Vec<_> = sound.iter().filter(|(_, v)| !matches!(v, Verdict::Pass | Verdict::Xfail)).collect();
-    assert!(bad.is_empty(), "without any fault: {bad:?}");
-
+    must_be_sound(&sound);
     let lost: Vec<(&str, BTreeSet<String>)> = faults
         .par_iter()
-        .map(|(name, subject)| {
-            let faulty = verdicts(&studies, profile, subject.as_ref());
-            let lost =
-                sound.iter().filter(|(id, verdict)| turned(**verdict, faulty[*id])).map(|(id, _)| id.clone());
-            (*name, lost.collect())
-        })
+        .map(|(name, subject)| (*name, lost(&sound, &verdicts(&studies, profile, subject.as_ref()))))
         .collect();
+    all_must_be_lost(&sound, &lost);
+}
 
+fn must_be_sound(sound: &BTreeMap<String, Verdict>) {
+    let bad: Vec<_> = sound.iter().filter(|(_, v)| !matches!(v, Verdict::Pass | Verdict::Xfail)).collect();
+    assert!(bad.is_empty(), "without any fault: {bad:?}");
+}
+
+/// Claims whose verdicts a fault turns, of those that were judged with it.
+fn lost(sound: &BTreeMap<String, Verdict>, faulty: &BTreeMap<String, Verdict>) -> BTreeSet<String> {
+    let both = faulty.iter().filter_map(|(id, faulty)| Some((id, *sound.get(id)?, *faulty)));
+    both.filter(|(_, sound, faulty)| turned(*sound, *faulty)).map(|(id, ..)| id.clone()).collect()
+}
+
+fn all_must_be_lost(sound: &BTreeMap<String, Verdict>, lost: &[(&str, BTreeSet<String>)]) {
     let harmless: Vec<_> =
         lost.iter().filter(|(_, claims)| claims.is_empty()).map(|(name, _)| name).collect();
     assert!(harmless.is_empty(), "no verdict notices these faults: {harmless:?}");

@@ -15,6 +15,8 @@ use super::text;
 const LOW: f64 = 34.0;
 const HIGH: f64 = 62.0;
 const SHARE: f64 = 0.62;
+/// Of a name.
+const LINE: f64 = 17.0;
 /// Height that few bars share.
 const TOGETHER: f64 = 250.0;
 
@@ -146,7 +148,7 @@ impl StackedBars {
             self.stacks.iter().map(|s| text::wrap(&s.label, frame::SIZE, false, room + 1.0)).collect();
         let lines = labels.iter().map(Vec::len).max().unwrap_or(1);
         let count = self.stacks.len().max(1) as f64;
-        let row = (TOGETHER / count).clamp(LOW, HIGH).max(17.0 * lines as f64 + 10.0);
+        let row = (TOGETHER / count).clamp(LOW, HIGH).max(LINE * lines as f64 + 10.0);
         let upper = top + title + 8.0;
         let area = Rect { left: x.start, top: upper, right, bottom: upper + row * count };
 
@@ -156,13 +158,7 @@ impl StackedBars {
             let centre = (middle, 0.5 * (area.top + area.bottom));
             canvas.text(words(centre, "no data", Align::Centre));
         }
-        for (i, label) in labels.iter().enumerate() {
-            let middle = upper + (i as f64 + 0.5) * row;
-            for (k, line) in label.iter().enumerate() {
-                let y = middle + (k as f64 - 0.5 * (label.len() - 1) as f64) * 17.0;
-                canvas.text(words((area.left - 9.0, y), line, Align::Right));
-            }
-        }
+        write_names(canvas, &labels, area, row);
         canvas.outline(area, Stroke::solid(INK, 1.2));
         let below = frame::level_axis(canvas, area, &self.value, &x, &ticks);
         Ok((area.bottom + below - top, left_out))
@@ -202,6 +198,17 @@ impl Segment {
         let (lo, hi) = (self.from.min(self.to).max(x.lo), self.from.max(self.to).min(x.hi));
         if lo < hi {
             Fill::slot(self.slot).draw(canvas, Rect { left: x.at(lo), right: x.at(hi), ..bar });
+        }
+    }
+}
+
+/// Names left of the frame, each in its lines, at the middle of its row.
+fn write_names(canvas: &mut Canvas, labels: &[Vec<String>], area: Rect, row: f64) {
+    for (i, label) in labels.iter().enumerate() {
+        let middle = area.top + (i as f64 + 0.5) * row;
+        for (k, line) in label.iter().enumerate() {
+            let y = middle + (k as f64 - 0.5 * (label.len() - 1) as f64) * LINE;
+            canvas.text(words((area.left - 9.0, y), line, Align::Right));
         }
     }
 }

@@ -1,0 +1,38 @@
+//! Dynamic stress intensity factors: plates with a crack, marched, read at the tip, held against exact histories.
+
+pub mod budget;
+mod errors;
+mod expect;
+mod extraction;
+pub mod intensity;
+mod intensity_report;
+mod known;
+mod load;
+mod plate;
+pub mod running;
+mod running_report;
+pub mod sensitivity;
+mod setup;
+mod smooth;
+mod tip;
+pub mod tip_factor;
+mod tip_factor_report;
+mod tips;
+
+use crate::written::Word;
+
+/// What a case may ask.
+pub const WORDS: &[Word] = &[
+    Word::of::<intensity::IntensityAsked>("stress_intensity"),
+    Word::of::<budget::BudgetAsked>("error_budget"),
+    Word::of::<sensitivity::SensitivityAsked>("reading_sensitivity"),
+    Word::of::<running::RunningAsked>("running_crack"),
+    Word::of::<tip_factor::TipFactorAsked>("tip_factor"),
+];
+
+/// Files that cases share; no figure may take their names.
+pub const TABLES: &[&str] =
+    &["dsif_budget", "dsif_errors", "dsif_history", "dsif_running", "dsif_tip_factor", "verdicts"];
+
+/// Ends of the names of figures beside the one that is called like its case.
+pub const SUFFIXES: &[&str] = &["-convergence", "-field"];

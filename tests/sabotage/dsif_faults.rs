@@ -1,0 +1,208 @@
+//! The wrong ingredients of stress intensity factors, one each: in what loads the plate, in the lattice, in what is seen of
+//! the tip, and in how K is read from it.
+
+use crate::subject::{PdVerify, Subject};
+use pd_verify::constraints::Edge;
+use pd_verify::material::Body;
+use pd_verify::record::{Failure, Record};
+use pd_verify::scene::Scene;
+use pd_verify::stress_intensity::running::Running;
+use pd_verify::stress_intensity::{Elastic, Faces, Reading, Tip, Unreadable};
+
+/// A fault, and the studies in which it is looked for: the others do not have the ingredient.
+pub struct Fault {
+    pub name: &'static str,
+    pub studies: &'static [&'static str],
+    pub subject: Box<dyn Subject + Send>,
+}
+
+const TIPS: &[&str] = &["dsif-tips"];
+const EDGES: &[&str] = &["dsif-edges"];
+const WAVES: &[&str] = &["dsif-edges", "dsif-faces", "dsif-plates", "dsif-running"];
+const SHORT: &[&str] = &["dsif-faces", "dsif-plates", "dsif-running"];
+
+/// All of them.
+pub fn all() -> Vec<Fault> {
+    fn march(change: fn(&mut Scene<2>)) -> Box<dyn Subject + Send> {
+        Box::new(OtherScene { march: change, rest: |_| () })
+    }
+    fn rest(change: fn(&mut Scene<2>)) -> Box<dyn Subject + Send> {
+        Box::new(OtherScene { march: |_| (), rest: change })
+    }
+    let fault = |name, studies, subject| Fault { name, studies, subject };
+    vec![
+        fault("a tip at rest is printed where calibrated was asked for", TIPS, rest(printed)),
+        fault(
+            "a tip at rest in plane strain has a notch two cells shorter",
+            TIPS,
+            rest(short_in_plane_strain),
+        ),
+        fault("a small patch has a notch two cells shorter", TIPS, rest(short_when_small)),
+        fault("a tip at rest has a notch two cells shorter", EDGES, rest(shorter)),
+        fault("a load acts twice where once was asked for", SHORT, march(twice)),
+        fault("the crack is two cells shorter", EDGES, march(shorter)),
+        fault("fine grids are a fifth softer", WAVES, march(soft_when_fine)),
+        fault("plates on rollers are a fifth softer", EDGES, march(soft_on_rollers)),
+        fault("calibration is forgotten", SHORT, march(printed)),
+        fault("K is read a twentieth too large", WAVES, Box::new(OtherReading(|k| k.map(|k| 1.05 * k)))),
+        fault("the acceleration is not seen", EDGES, Box::new(NoAcceleration)),
+        fault("the stress of the faces is not seen", SHORT, Box::new(NoFaces)),
+        fault("looks come much too early", EDGES, Box::new(Early)),
+        fault("a running tip is read as one at rest", &["dsif-running"], Box::new(AtRest)),
+        fault("what is printed comes out as printed", EDGES, Box::new(AsPrinted)),
+    ]
+}
+
+/// Marches another scene than the one asked for, or brings another one to rest.
+struct OtherScene {
+    march: fn(&mut Scene<2>),
+    rest: fn(&mut Scene<2>),
+}
+
+impl Subject for OtherScene {
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        let mut other = scene.clone();
+        (self.march)(&mut other);
+        PdVerify.march_plate(&other)
+    }
+
+    fn rest_plate(&self, scene: &Scene<2>) -> Result<Vec<[f64; 2]>, String> {
+        let mut other = scene.clone();
+        (self.rest)(&mut other);
+        PdVerify.rest_plate(&other)
+    }
+}
+
+fn printed(scene: &mut Scene<2>) {
+    scene.lattice.calibrated = false;
+}
+
+fn shorter(scene: &mut Scene<2>) {
+    scene.notches.iter_mut().for_each(|notch| notch.to[0] -= 2.0 * scene.spacing);
+}
+
+fn short_in_plane_strain(scene: &mut Scene<2>) {
+    if scene.body == Body::PlaneStrain {
+        shorter(scene);
+    }
+}
+
+fn short_when_small(scene: &mut Scene<2>) {
+    if scene.nodes[0] < 100 {
+        shorter(scene);
+    }
+}
+
+fn twice(scene: &mut Scene<2>) {
+    scene.effects.extend(scene.effects.clone());
+}
+
+fn soft_when_fine(scene: &mut Scene<2>) {
+    if scene.nodes[0] > 300 {
+        scene.material.youngs_modulus *= 0.8;
+    }
+}
+
+fn soft_on_rollers(scene: &mut Scene<2>) {
+    if scene.edges.0[0][0] == Edge::MirrorOdd {
+        scene.material.youngs_modulus *= 0.8;
+    }
+}
+
+/// K is another than the one that is read.
+struct OtherReading(fn([f64; 2]) -> [f64; 2]);
+
+impl Subject for OtherReading {
+    fn stress_intensity(
+        &self,
+        reading: &Reading,
+        displacement: &[[f64; 2]],
+        acceleration: &[[f64; 2]],
+        faces: Faces,
+    ) -> [f64; 2] {
+        (self.0)(PdVerify.stress_intensity(reading, displacement, acceleration, faces))
+    }
+}
+
+struct NoAcceleration;
+
+impl Subject for NoAcceleration {
+    fn stress_intensity(
+        &self,
+        reading: &Reading,
+        displacement: &[[f64; 2]],
+        acceleration: &[[f64; 2]],
+        faces: Faces,
+    ) -> [f64; 2] {
+        let none = vec![[0.0; 2]; acceleration.len()];
+        PdVerify.stress_intensity(reading, displacement, &none, faces)
+    }
+}
+
+struct NoFaces;
+
+impl Subject for NoFaces {
+    fn stress_intensity(
+        &self,
+        reading: &Reading,
+        displacement: &[[f64; 2]],
+        acceleration: &[[f64; 2]],
+        _: Faces,
+    ) -> [f64; 2] {
+        PdVerify.stress_intensity(reading, displacement, acceleration, Faces::default())
+    }
+}
+
+/// What is seen at t is said to have been seen at 0.6 t.
+struct Early;
+
+impl Subject for Early {
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        let mut record = PdVerify.march_plate(scene)?;
+        record.traces.iter_mut().flat_map(|trace| &mut trace.times).for_each(|t| *t *= 0.6);
+        Ok(record)
+    }
+}
+
+struct AtRest;
+
+impl Subject for AtRest {
+    fn running_reading(&self, fit: &Running, tip: &Tip, elastic: &Elastic) -> Result<Reading, Unreadable> {
+        PdVerify.running_reading(&Running { speed: 0.0, ..*fit }, tip, elastic)
+    }
+}
+
+/// The plate has the wave speed of plane strain with a Poisson ratio of 0.3, and one face moves as half the opening.
+struct AsPrinted;
+
+/// (c_d of the printed reference over that of the body)², and K of the same stress over K read with the body's modulus.
+const FASTER: f64 = 0.7 / (1.3 * 0.4) / 1.125;
+const LARGER: f64 = 1.1463;
+
+impl Subject for AsPrinted {
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        let mut other = scene.clone();
+        if other.edges.0[0][0] == Edge::MirrorOdd {
+            other.material.youngs_modulus *= FASTER;
+        }
+        PdVerify.march_plate(&other)
+    }
+
+    fn stress_intensity(
+        &self,
+        reading: &Reading,
+        displacement: &[[f64; 2]],
+        acceleration: &[[f64; 2]],
+        faces: Faces,
+    ) -> [f64; 2] {
+        // Two nodes: one face.
+        if reading.nodes().len() > 2 {
+            let k = PdVerify.stress_intensity(reading, displacement, acceleration, faces);
+            return k.map(|k| LARGER * k);
+        }
+        let count = displacement.len() as f64;
+        let mean = [0, 1].map(|axis| displacement.iter().map(|u| u[axis]).sum::<f64>() / count);
+        let still: Vec<[f64; 2]> = displacement.iter().map(|u| [u[0] - mean[0], u[1] - mean[1]]).collect();
+        PdVerify.stress_intensity(reading, &still, acceleration, faces).map(|k| 0.93 * k)
+    }
+}
