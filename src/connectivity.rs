@@ -49,11 +49,41 @@ impl<const D: usize> Connectivity<D> {
 
     /// Whether the bond from a node of the body to its neighbour at `offset` exists.
     pub fn present(&self, node: [isize; D], offset: [i32; D]) -> bool {
+        let reach = offset.map(i32::unsigned_abs).into_iter().max().unwrap_or(0);
+        if self.clear(node, reach as usize) {
+            return true;
+        }
         if !self.edges.present(self.grid.nodes, node, offset) {
             return false;
         }
         let far = std::array::from_fn(|axis| node[axis] + offset[axis] as isize);
         self.intact() || (self.image(far).is_some() && !self.is_cut(node, offset))
+    }
+
+    /// Whether every bond of a node surely exists, those of its neighbours to it included, for bonds that reach so many nodes
+    /// along an axis: it lies deeper in the body, and no notch and no hole comes near. Said from bounding boxes, in a few
+    /// comparisons for all bonds.
+    pub fn clear(&self, node: [isize; D], reach: usize) -> bool {
+        let inside = |axis: usize| {
+            let (at, reach) = (node[axis], reach as isize);
+            at >= reach && at + reach < self.grid.nodes[axis] as isize
+        };
+        if !(0..D).all(inside) {
+            return false;
+        }
+        let spacing = self.grid.spacing;
+        let margin = (reach + 1) as f64 * spacing;
+        let at = |axis: usize| if axis < D { (node[axis] as f64 + 0.5) * spacing } else { 0.0 };
+        let beside = |low: [f64; 2], high: [f64; 2]| {
+            (0..2).any(|axis| at(axis) < low[axis] - margin || at(axis) > high[axis] + margin)
+        };
+        let notch = |notch: &Notch| {
+            let [from, to] = [notch.from, notch.to];
+            beside([0, 1].map(|axis| from[axis].min(to[axis])), [0, 1].map(|axis| from[axis].max(to[axis])))
+        };
+        let hole =
+            |hole: &Hole| beside(hole.centre.map(|x| x - hole.radius), hole.centre.map(|x| x + hole.radius));
+        self.notches.iter().all(notch) && self.holes.iter().all(hole)
     }
 
     fn is_cut(&self, node: [isize; D], offset: [i32; D]) -> bool {

@@ -31,7 +31,12 @@ fn the_studies_in_it_run() {
     let text = readme();
     let studies: Vec<&str> =
         text.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-    let results = ["my-aluminium/dispersion_curves.csv", "pulled-bar/probes.csv", "let-go/bar_strain.csv"];
+    let results = [
+        "my-aluminium/dispersion_curves.csv",
+        "pulled-bar/probes.csv",
+        "let-go/bar_strain.csv",
+        "my-crack/dsif_history.csv",
+    ];
     assert_eq!(studies.len(), results.len());
     let folder = tempfile::tempdir().unwrap();
     for (study, result) in studies.into_iter().zip(results) {

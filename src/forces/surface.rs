@@ -5,7 +5,7 @@
 //! along an ellipse, 1/√Σ (n_a/λ_a)². Volume (Le & Bobaru 2018, Comput. Mech. 61, 499): the factor is 2V₀/(V_i + V_j), V
 //! the counted volume of a family. Both are 1 in the bulk, exactly.
 
-use super::FamilyBond;
+use super::{FamilyBond, reach_of};
 use crate::connectivity::Connectivity;
 use crate::grid::Grid;
 use schemars::JsonSchema;
@@ -39,6 +39,8 @@ pub struct Factors<const D: usize> {
     units: Vec<[f64; D]>,
     offsets: Vec<[i32; D]>,
     grid: Grid<D>,
+    /// How many nodes away bonds reach along an axis.
+    reach: usize,
     /// By cell, row by row: bulk over node, energies along each axis, or the counted volume alone.
     of_node: Vec<[f64; D]>,
 }
@@ -71,7 +73,8 @@ impl<const D: usize> Factors<D> {
         };
         let bulk = total(&|_| true);
         let mut of_node = vec![[1.0; D]; grid.cells()];
-        for node in grid.each() {
+        let reach = reach_of(family.iter().copied());
+        for node in grid.each().filter(|node| !connectivity.clear(*node, reach)) {
             let own = total(&|offset| connectivity.present(node, offset));
             of_node[grid.number(node)] =
                 std::array::from_fn(
@@ -80,6 +83,7 @@ impl<const D: usize> Factors<D> {
         }
         Self {
             correction,
+            reach,
             grid: grid.clone(),
             of_node,
             units: family.iter().map(|bond| bond.direction.unit).collect(),
@@ -109,12 +113,18 @@ impl<const D: usize> Factors<D> {
 
     /// Whether every bond of a node keeps its weight.
     pub fn neutral(&self, node: [isize; D]) -> bool {
-        self.around(node).all(|factor| factor == 1.0)
+        self.plain(node) || self.around(node).all(|factor| factor == 1.0)
     }
 
     /// The largest factor of a bond that exists: the frequencies of a body of positive weights grow by at most its root.
     pub fn largest(&self, grid: &Grid<D>) -> f64 {
-        grid.each().flat_map(|node| self.around(node)).fold(1.0, f64::max)
+        let corrected = grid.each().filter(|node| !self.plain(*node));
+        corrected.flat_map(|node| self.around(node)).fold(1.0, f64::max)
+    }
+
+    /// Whether neither the node nor any that it is bonded to misses a bond, as far as can be said at a glance.
+    fn plain(&self, node: [isize; D]) -> bool {
+        self.connectivity.clear(node, 2 * self.reach)
     }
 
     /// The factors of a node's bonds, those that it owns and those that others own, ghosts beyond an edge among them.

@@ -101,9 +101,13 @@ fn by_nodes<const D: usize>(
 ) -> Served {
     let mut served = Served::default();
     let mut whole = vec![false; grid.cells()];
+    let reach = stencil.reach();
     for node in grid.each() {
         let both = stencil.bonds.iter().flat_map(|bond| [bond.offset, bond.offset.map(|n| -n)]);
-        let ends = both.filter(|&offset| connectivity.present(node, offset)).count();
+        let ends = match connectivity.clear(node, reach) {
+            true => 2 * stencil.bonds.len(),
+            false => both.filter(|&offset| connectivity.present(node, offset)).count(),
+        };
         let may_break =
             |breaking: &RunningNotches| breaking.breakable().first_word(grid.number(node)).is_some();
         if breaking.is_some_and(may_break) {

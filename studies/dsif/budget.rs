@@ -6,7 +6,7 @@ use super::extraction::ExtractionAsked;
 use super::intensity::{Found, Intensity, IntensityAsked, Read};
 use super::intensity_report as report;
 use super::known::{KnownAsked, WindowAsked};
-use super::load::{LoadAsked, ModeName};
+use super::load::{LoadAsked, ModeName, On};
 use super::plate::{LateralName, PlateAsked};
 use super::setup::Setup;
 use super::tips::Tips;
@@ -87,6 +87,10 @@ impl Asked for BudgetAsked {
             let message = "a budget compares free lateral edges with guided ones";
             return Err(Wrong::new("plate.lateral", message, "leave it out"));
         }
+        if self.load.on == On::AllEdges {
+            let message = "a load on all edges leaves no lateral edges to be guided";
+            return Err(Wrong::new("load.on", message, "load the upper edge, both, or the faces"));
+        }
         let published = ExtractionAsked { name: Some("published".into()), ..self.published.clone() };
         let best = ExtractionAsked { name: Some("best".into()), ..self.best.clone() };
         let guided = match self.load.mode {
@@ -121,7 +125,7 @@ const REST: f64 = 0.005;
 const LATERAL: f64 = 1e-4;
 /// How far a reading at the nearest nodes may be from its tip factor: it looks half a spacing beside the faces, where the
 /// stress along the crack opens it too, by a part that falls with the root of the spacing.
-const NEAR: f64 = 0.1;
+const NEAR: f64 = 0.05;
 
 impl Question for Budget {
     fn claims(&self, place: &Place) -> Vec<Claim> {

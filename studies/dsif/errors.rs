@@ -72,7 +72,7 @@ pub fn apart(intensity: &Intensity, a: &Read, b: &Read) -> Option<f64> {
 pub fn early(intensity: &Intensity, read: &Read) -> Option<f64> {
     let mode = intensity.load.mode.index();
     let peak = pairs(intensity, read)?.iter().map(|pair| pair.1.abs()).fold(0.0, f64::max);
-    let before = read.times.iter().zip(&read.k).filter(|(t, _)| **t < intensity.known.arrival);
+    let before = read.times.iter().zip(&read.k).filter(|(t, _)| **t < intensity.known.begins);
     largest(before.map(|(_, k)| k[mode].abs() / peak))
 }
 

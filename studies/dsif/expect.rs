@@ -3,6 +3,7 @@
 use super::errors::{self, Errors};
 use super::extraction::Extraction;
 use super::intensity::{Found, Intensity, Read, Track};
+use super::said::{check_name, check_reason};
 use crate::levels::{furthest, order_of};
 use crate::question::{Claiming, Place, claim, error_of};
 use crate::rounded::rounded;
@@ -108,14 +109,23 @@ impl Expect {
         asked: &[ExpectAsked],
         extractions: &[Extraction],
         tracks: &[Track],
+        published: bool,
+        by_m: bool,
     ) -> Result<Vec<Self>, Wrong> {
         let mut all: Vec<Self> = Vec::new();
         for (index, one) in asked.iter().enumerate() {
             let path = format!("expect[{index}]");
             let one = Self::new(one, extractions, tracks).map_err(|wrong| wrong.inside(&path))?;
-            if all.iter().any(|other| other.name == one.name) {
-                let message = format!("two claims are called \"{}\"", one.name);
-                return Err(Wrong::new(format!("{path}.name"), message, "give each its own name"));
+            let taken: Vec<String> = all.iter().map(|other| other.name.clone()).collect();
+            check_name("name", &one.name, &taken).map_err(|wrong| wrong.inside(&path))?;
+            if one.published() && !published {
+                let message = "there is no published reference to hold K against";
+                let key = format!("{path}.against_published");
+                return Err(Wrong::new(key, message, "add known.reference_poisson_ratio"));
+            }
+            if by_m && one.asked.quantity == QuantityName::Order {
+                let message = "at a fixed horizon nothing is refined that an order could be had in";
+                return Err(Wrong::new(format!("{path}.quantity"), message, "refine with dx_m"));
             }
             all.push(one);
         }
@@ -153,14 +163,21 @@ impl Expect {
             let message = format!("this quantity needs {needed} levels, and there are {levels}");
             return Err(Wrong::new("quantity", message, "add spacings to dx_m"));
         }
+        if from == Some(extraction) {
+            return Err(Wrong::new("from", "an extraction does not differ from itself", "name another one"));
+        }
+        let errors = [QuantityName::Rms, QuantityName::Max, QuantityName::L2, QuantityName::Peak];
         let bound = match (asked.at_most, asked.at_least, asked.quantity) {
-            (Some(most), None, quantity) if quantity != Order && most.is_finite() => Bound::AtMost(most),
-            (None, Some(least), quantity) if quantity != NotFalling && least.is_finite() => {
+            (Some(most), None, quantity) if !matches!(quantity, Order | NotFalling) && most > 0.0 => {
+                Bound::AtMost(most)
+            }
+            (None, Some(least), Order) if least.is_finite() => Bound::AtLeast(least),
+            (None, Some(least), quantity) if errors.contains(&quantity) && least > 0.0 => {
                 Bound::AtLeast(least)
             }
             (None, None, NotFalling) => Bound::AtMost(0.0),
             _ => {
-                let help = "give at_most, of an order at_least";
+                let help = "give at_most above 0; of an order, or an error that stays, at_least; of not_falling none";
                 return Err(Wrong::new("", "a claim needs one bound that fits its quantity", help));
             }
         };
@@ -180,22 +197,17 @@ impl Expect {
             return Err(Wrong::new("against_published", message, "leave it out"));
         }
         let near = |dx: f64, spacing: f64| (spacing / dx - 1.0).abs() < 1e-6;
+        if asked.dx_m.is_some() && matches!(asked.quantity, Order | NotFalling) {
+            return Err(Wrong::new("dx_m", "this quantity is about all levels", "leave it out"));
+        }
         if let Some(dx) = asked.dx_m
             && !tracks.iter().all(|track| track.setups.iter().any(|setup| near(dx.0, setup.scene.spacing)))
         {
             return Err(Wrong::new("dx_m", format!("no level has cells of {} m", dx.0), "take one of dx_m"));
         }
-        if asked.because.trim().len() < 16 {
-            let help = "say in a sentence why the bound is what it is";
-            return Err(Wrong::new("because", "a claim without a reason is not judged", help));
-        }
+        check_reason(&asked.because)?;
         let word = asked.quantity.word();
         let name = asked.name.clone().unwrap_or_else(|| format!("{}_{word}", asked.extraction));
-        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-        if name.is_empty() || name.len() > 60 || !name.chars().all(plain) {
-            let message = format!("\"{name}\" cannot name a claim");
-            return Err(Wrong::new("name", message, "use lower-case letters, digits and _, at most 60"));
-        }
         Ok(Self { name, asked: asked.clone(), bound, extraction, from })
     }
 
@@ -247,9 +259,18 @@ impl Expect {
             chosen.map(|(track, reads)| self.of_track(intensity, track, reads)).collect();
         match self.bound {
             Bound::AtMost(most) => furthest(each, most).unwrap_or_default(),
-            Bound::AtLeast(_) => {
-                let value = |evidence: &Evidence| evidence.computed.unwrap_or(f64::NEG_INFINITY);
-                each.into_iter().min_by(|a, b| value(a).total_cmp(&value(b))).unwrap_or_default()
+            // One below the bound before one without a number, and this before one above.
+            Bound::AtLeast(least) => {
+                let rank = |evidence: &Evidence| match evidence.computed.filter(|value| !value.is_nan()) {
+                    Some(value) if value < least => (0, value),
+                    None => (1, 0.0),
+                    Some(value) => (2, value),
+                };
+                let lower = |a: &Evidence, b: &Evidence| {
+                    let (a, b) = (rank(a), rank(b));
+                    a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+                };
+                each.into_iter().min_by(lower).unwrap_or_default()
             }
         }
     }

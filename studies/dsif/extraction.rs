@@ -1,5 +1,6 @@
 //! How K is read, as written: a method with its radii in horizons, and whether it is divided by its tip factor.
 
+use super::said::check_name;
 use pd_verify::scene::{Positive, Wrong};
 use pd_verify::stress_intensity::gradient::Differences;
 use pd_verify::stress_intensity::interaction_integral::InteractionIntegral;
@@ -149,11 +150,7 @@ impl ExtractionAsked {
             return Err(Wrong::new(*key, message, "leave it out, or name the method that uses it"));
         }
         let name = self.name.clone().unwrap_or_else(|| self.method.word().to_owned());
-        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-        if name.is_empty() || name.len() > 40 || !name.chars().all(plain) {
-            let message = format!("\"{name}\" cannot name an extraction");
-            return Err(Wrong::new("name", message, "use lower-case letters, digits and _, at most 40"));
-        }
+        check_name("name", &name, &[])?;
         let way = match self.method {
             Two => Way::TwoPoint(self.two_point()?),
             Series => Way::Williams {

@@ -5,8 +5,9 @@ use super::expect::{Expect, ExpectAsked};
 use super::extraction::{Extraction, ExtractionAsked};
 use super::intensity_report as report;
 use super::known::{Known, KnownAsked, Window, WindowAsked, holds_until};
-use super::load::{Load, LoadAsked};
+use super::load::{Load, LoadAsked, On};
 use super::plate::PlateAsked;
+use super::said::{check_levels, check_name};
 use super::setup::{Problem, Seen, Setup};
 use super::tips::Tips;
 use crate::bar::names;
@@ -16,6 +17,7 @@ use crate::question::{Answer, Effort, Place, Planned, Question};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
 use pd_verify::claim::Claim;
+use pd_verify::material::{Body, Material};
 use pd_verify::scene::{Positive, Wrong};
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -121,9 +123,16 @@ impl Asked for IntensityAsked {
         let known = self.known.check((material, body), &self.plate, &load)?;
         let extractions = extractions(&self.extraction)?;
         let levels = self.levels()?;
-        let finest = levels.iter().flatten().map(|level| level.1).fold(f64::INFINITY, f64::min);
-        let plate = self.plate.on(finest)?;
-        let (last, ends) = holds_until(&known, (material, body), &plate, &load)?;
+        let (mut last, mut ends) = (f64::INFINITY, "");
+        for &(m, dx) in levels.iter().flatten() {
+            let plate = self.plate.on(dx)?;
+            known.check_height(&self.plate, &plate)?;
+            let (until, what) = holds_until(&known, (material, body), &plate, &load)?;
+            let until = until - seen_before(&extractions, m * dx, (material, body), &load);
+            if until < last {
+                (last, ends) = (until, what);
+            }
+        }
         let window = self.window.check(&known, last)?;
         let problem =
             Problem { material, body, plate: self.plate.clone(), load: load.clone(), until: window.to };
@@ -141,7 +150,13 @@ impl Asked for IntensityAsked {
             }
         }
         name(&mut tracks, self.horizon_m.is_some());
-        let expect = Expect::all(&self.expect, &extractions, &tracks)?;
+        let expect = Expect::all(
+            &self.expect,
+            &extractions,
+            &tracks,
+            known.has_published(),
+            self.horizon_m.is_some(),
+        )?;
         Ok(Intensity {
             title: written.title.to_owned(),
             load,
@@ -159,6 +174,19 @@ impl Asked for IntensityAsked {
     }
 }
 
+/// How long before it reaches the tip a wave is seen by the widest annulus, in s: with loaded faces K grows all the time, and
+/// what comes back is no plane wave. (From loaded edges the first that comes back is the tip's own wave, spread out and weak;
+/// by finite elements K and displacements beside the tip hold until it is there.)
+fn seen_before(
+    extractions: &[Extraction],
+    horizon: f64,
+    (material, body): (Material, Body),
+    load: &Load,
+) -> f64 {
+    let widest = extractions.iter().filter_map(|one| Some(one.radii(horizon)?.outer)).fold(0.0, f64::max);
+    if load.on == On::Faces { widest / material.dilatational_speed(body) } else { 0.0 }
+}
+
 /// Extractions with names of their own.
 pub fn extractions(asked: &[ExtractionAsked]) -> Result<Vec<Extraction>, Wrong> {
     if asked.is_empty() {
@@ -168,10 +196,8 @@ pub fn extractions(asked: &[ExtractionAsked]) -> Result<Vec<Extraction>, Wrong> 
     for (index, one) in asked.iter().enumerate() {
         let path = format!("extraction[{index}]");
         let one = one.check().map_err(|wrong| wrong.inside(&path))?;
-        if all.iter().any(|other| other.name == one.name) {
-            let message = format!("two extractions are called \"{}\"", one.name);
-            return Err(Wrong::new(format!("{path}.name"), message, "give each its own name"));
-        }
+        let taken: Vec<String> = all.iter().map(|other: &Extraction| other.name.clone()).collect();
+        check_name("name", &one.name, &taken).map_err(|wrong| wrong.inside(&path))?;
         all.push(one);
     }
     Ok(all)
@@ -195,10 +221,7 @@ impl IntensityAsked {
         match (&self.dx_m, self.horizon_m) {
             (Some(dx), None) => {
                 let dx: Vec<f64> = dx.0.iter().map(|dx| dx.0).collect();
-                if !dx.windows(2).all(|pair| pair[0] > pair[1]) {
-                    let message = "levels go from coarse to fine";
-                    return Err(Wrong::new("dx_m", message, "write falling spacings"));
-                }
+                check_levels(&dx)?;
                 Ok(m.iter().map(|&m| dx.iter().map(|&dx| (m, dx)).collect()).collect())
             }
             (None, Some(horizon)) => {
@@ -247,7 +270,10 @@ impl Intensity {
             let factors = tips.factors(setup, extraction);
             let divisor = match (extraction.tip_factor, factors) {
                 (true, Some(factors)) => factors,
-                (true, None) => return Err(format!("{} has no tip factor", extraction.name)),
+                (true, None) => {
+                    let name = &extraction.name;
+                    return Err(format!("{name} looks too far for its tip factor: take fewer horizons"));
+                }
                 (false, _) => [1.0; 2],
             };
             let k = setup.read(subject, &seen, extraction, divisor)?;

@@ -2,7 +2,7 @@
 //! over the spacing, the field around the tip.
 
 use super::errors;
-use super::intensity::{Found, Intensity, Read, Track, UnitName};
+use super::intensity::{Found, Intensity, Read, UnitName};
 use super::setup::Setup;
 use crate::bar::names::{LATTICE, lattice_cells};
 use crate::question::Place;
@@ -16,8 +16,7 @@ const DRAWN: usize = 8;
 /// Rows of all looks of all histories, the published reference beside the one that judges.
 pub fn histories(intensity: &Intensity, found: &Found, place: &Place) -> Table {
     let mut table = table("dsif_history.csv");
-    each(intensity, found, |track, setup, index, read| {
-        let _ = track;
+    each(intensity, found, |setup, index, read| {
         let extraction = &intensity.extractions[index];
         let ring = extraction.radii(setup.tip.horizon);
         let mode = intensity.load.mode;
@@ -98,11 +97,11 @@ fn lattice(setup: &Setup) -> [Cell; LATTICE.len()] {
     std::array::from_fn(|_| cells.next().unwrap_or(Cell::Empty))
 }
 
-fn each(intensity: &Intensity, found: &Found, mut act: impl FnMut(&Track, &Setup, usize, &Read)) {
+fn each(intensity: &Intensity, found: &Found, mut act: impl FnMut(&Setup, usize, &Read)) {
     for (track, levels) in intensity.tracks.iter().zip(&found.reads) {
         for (setup, reads) in track.setups.iter().zip(levels) {
             for (index, read) in reads.iter().enumerate() {
-                act(track, setup, index, read);
+                act(setup, index, read);
             }
         }
     }
@@ -124,7 +123,7 @@ pub fn errors(intensity: &Intensity, found: &Found, place: &Place) -> Table {
     ]);
     columns.extend(["rms", "max", "mean", "l2", "peak", "moved"]);
     let mut table = Table::new("dsif_errors.csv", &columns);
-    each(intensity, found, |_, setup, index, read| {
+    each(intensity, found, |setup, index, read| {
         let extraction = &intensity.extractions[index];
         let ring = extraction.radii(setup.tip.horizon);
         let mode = intensity.load.mode;
@@ -222,7 +221,7 @@ fn history(intensity: &Intensity, found: &Found, place: &Place) -> Figure {
     lower.bands = vec![band(intensity, micro)];
     lower.guides = vec![Guide::Horizontal { at: 0.0, label: String::new() }];
     let mut caption = format!(
-        "K of mode {} at the finest level, cells of {:.4} mm, and what it is beyond the reference, in the window in which the reference holds ({}).",
+        "K of mode {} at the finest level, cells of {:.4} mm, and what it is beyond the reference, in the window that is judged; the reference holds until {}.",
         mode.word(),
         1e3 * setup.scene.spacing,
         intensity.ends
@@ -286,7 +285,7 @@ fn field(intensity: &Intensity, found: &Found, place: &Place) -> Option<Figure> 
             .into()
     };
     let caption = format!(
-        "Displacement of the nodes up to {half} m around the tip at the end of the window, less its mean; {}.",
+        "Displacement of the nodes at least {half} m around the tip at the end of the window, less its mean; {}.",
         intensity.tracks[0].name
     );
     let title = format!("{}: the field around the tip", intensity.title);

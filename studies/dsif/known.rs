@@ -62,12 +62,13 @@ impl Window {
 /// K over time.
 #[derive(Debug, Clone)]
 pub struct Known {
-    pub answer: AnswerName,
     history: History,
     /// Published comparison, where it differs.
     published: Option<Freund>,
     /// When the first wave reaches the crack, in s.
     pub arrival: f64,
+    /// When its first part does, as a smooth rise begins before t = 0.
+    pub begins: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -133,7 +134,7 @@ impl KnownAsked {
             }
             Some(known) => History::FiniteElements(computed(known, &plane, plate, load)?, load.stress),
         };
-        Ok(Known { answer: self.answer, arrival, history, published })
+        Ok(Known { arrival, begins: arrival - load.before(), history, published })
     }
 }
 
@@ -214,6 +215,31 @@ impl Known {
         .filter(|k| k.is_finite())
     }
 
+    /// Whether it is that of a crack in an infinite plane.
+    pub fn is_freund(&self) -> bool {
+        matches!(self.history, History::Freund(_))
+    }
+
+    /// Whether a published comparison stands beside it.
+    pub fn has_published(&self) -> bool {
+        self.published.is_some()
+    }
+
+    /// Refuses a lattice whose loaded edges are not where the answer has them: the wave would come early or late.
+    pub fn check_height(&self, asked: &PlateAsked, plate: &Cracked) -> Result<(), Wrong> {
+        let (wanted, real) = (asked.half_height(), plate.tip[1]);
+        if !self.is_freund() || (real / wanted - 1.0).abs() < 1e-9 {
+            return Ok(());
+        }
+        let message = format!(
+            "cells of {} m make half the height {} m, and the answer's wave comes from {} m",
+            plate.spacing,
+            rounded(real),
+            rounded(wanted)
+        );
+        Err(Wrong::new("dx_m", message, "take cells that divide half the height"))
+    }
+
     /// The published comparison.
     pub fn published_at(&self, t: f64) -> Option<f64> {
         self.published.as_ref().map(|freund| freund.at(t)).filter(|k| k.is_finite())
@@ -270,7 +296,7 @@ impl WindowAsked {
             return Err(Wrong::new("window", message, "let it end after it begins"));
         }
         let slack = 1e-9 * last.abs();
-        let first = if known.answer == AnswerName::Freund { known.arrival } else { 0.0 };
+        let first = if known.is_freund() { known.begins } else { 0.0 };
         if from < first - slack || to > last + slack {
             let message = format!(
                 "the reference holds from {} s to {} s, and the window is {} s to {} s",

@@ -11,6 +11,8 @@ mod load;
 mod plate;
 pub mod running;
 mod running_report;
+mod runs;
+mod said;
 pub mod sensitivity;
 mod setup;
 mod smooth;

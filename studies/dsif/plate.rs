@@ -62,7 +62,7 @@ pub struct Cracked {
 }
 
 /// How far before a tip the cut ends, in spacings: the bonds that pass through the tip itself hold.
-const BEFORE_TIP: f64 = 1e-3;
+pub const BEFORE_TIP: f64 = 1e-3;
 
 impl PlateAsked {
     /// The plate on cells of `dx` m: whole cells, an even number of rows, the tip at a multiple of half a cell.
@@ -140,6 +140,24 @@ impl Cracked {
         Edges([[lateral; 2], [Edge::Free; 2]])
     }
 
+    /// What must lie between an annulus and the crack's other end: at a second tip its nonlocal zone.
+    pub fn free_crack(&self, horizon: f64) -> f64 {
+        match self.place {
+            CrackPlace::LeftEdge => self.crack,
+            CrackPlace::Centre => self.crack - 2.0 * horizon,
+        }
+    }
+
+    /// The same plate with its tip further ahead by so many m.
+    pub fn further(&self, by: f64) -> Self {
+        Self { tip: [self.tip[0] + by, self.tip[1]], crack: self.crack + by, ..self.clone() }
+    }
+
+    /// From the tip to the right edge.
+    pub fn ahead(&self) -> f64 {
+        self.nodes[0] as f64 * self.spacing - self.tip[0]
+    }
+
     /// a: the length of an edge crack, half that of one in the middle.
     pub fn a(&self) -> f64 {
         match self.place {
@@ -150,7 +168,7 @@ impl Cracked {
 
     /// From the tip to the nearest edge other than the one that the crack comes from.
     pub fn room(&self) -> f64 {
-        (self.nodes[0] as f64 * self.spacing - self.tip[0]).min(self.tip[1])
+        self.ahead().min(self.tip[1])
     }
 
     /// Whether the tip stands between two columns of nodes, or on one.

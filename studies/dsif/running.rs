@@ -5,9 +5,11 @@ use super::known::{Known, KnownAsked, Window, holds_until};
 use super::load::{Load, LoadAsked, On};
 use super::plate::{CrackPlace, PlateAsked};
 use super::running_report as report;
+use super::runs::{Run, Way, check_speeds};
+use super::said::{check_levels, check_reason};
 use super::setup::{Problem, Seen, Setup};
 use super::smooth::smooth;
-use crate::convergence::path::{Weights, WeightsAsked};
+use crate::convergence::path::WeightsAsked;
 use crate::input::OneOrMany;
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of};
 use crate::rounded::rounded;
@@ -15,8 +17,7 @@ use crate::subject::Subject;
 use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
-use pd_verify::plan::Plan;
-use pd_verify::scene::{Positive, Running, Wrong};
+use pd_verify::scene::{Positive, Wrong};
 use pd_verify::stress_intensity::running::{Running as RunningFit, rayleigh_speed};
 use pd_verify::stress_intensity::{Annulus, Elastic, Sites, Tip};
 use pd_verify::verdict::Evidence;
@@ -72,15 +73,6 @@ pub struct RunningCrack {
     because: String,
 }
 
-/// One speed, from coarse to fine.
-pub struct Run {
-    /// Over Rayleigh's.
-    pub share: f64,
-    /// In m/s.
-    pub speed: f64,
-    pub setups: Vec<Setup>,
-}
-
 /// What one march of a running crack showed. Per look.
 #[derive(Debug, Clone)]
 pub struct Ran {
@@ -103,7 +95,7 @@ impl Asked for RunningAsked {
             return Err(Wrong::new("load.on", message, "take crack = \"left_edge\" and on = \"top\""));
         }
         let known = self.known.check((material, body), &self.plate, &load)?;
-        if known.running_at(0.0, 0.0).is_none() {
+        if !known.is_freund() {
             let message = "a running crack is known in an infinite plane alone";
             return Err(Wrong::new("known.answer", message, "take answer = \"freund\""));
         }
@@ -121,26 +113,45 @@ impl Asked for RunningAsked {
             return Err(Wrong::new("from_arrivals", message, "let starts, from and to grow"));
         }
         let spacings: Vec<f64> = self.dx_m.0.iter().map(|dx| dx.0).collect();
-        if !spacings.windows(2).all(|pair| pair[0] > pair[1]) {
-            return Err(Wrong::new("dx_m", "levels go from coarse to fine", "write falling spacings"));
-        }
-        let finest = spacings[spacings.len() - 1];
-        let (last, _) = holds_until(&known, (material, body), &self.plate.on(finest)?, &load)?;
-        if to > last * (1.0 + 1e-9) {
-            let message =
-                format!("the reference holds to {} s, and K is judged to {} s", rounded(last), rounded(to));
-            return Err(Wrong::new("to_arrivals", message, "end earlier, or take a larger plate"));
+        check_levels(&spacings)?;
+        check_reason(&self.because)?;
+        if self.terms == Some(0) {
+            return Err(Wrong::new("terms", "K is the first term", "give 1 or more"));
         }
         let elastic = Elastic::of(material, body)
             .ok_or_else(|| Wrong::new("plate.body", "a bar has no crack", "take a plate"))?;
-        let problem = Problem { material, body, plate: self.plate.clone(), load: load.clone(), until: to };
+        let shares: Vec<f64> = self.speeds.iter().map(|share| share.0).collect();
+        let rayleigh = rayleigh_speed(&elastic);
+        check_speeds(&shares)?;
+        // The last looks that are judged are smoothed with later ones.
+        let slowest = shares.iter().copied().fold(f64::INFINITY, f64::min) * rayleigh;
+        let until = to + 0.5 * spacings[0] / slowest;
+        let fastest = shares.iter().copied().fold(0.0, f64::max) * rayleigh;
+        for &dx in &spacings {
+            let plate = self.plate.on(dx)?;
+            known.check_height(&self.plate, &plate)?;
+            let further = plate.further(fastest * (until - start));
+            let (at_rest, _) = holds_until(&known, (material, body), &plate, &load)?;
+            let (gone, _) = holds_until(&known, (material, body), &further, &load)?;
+            let last = at_rest.min(gone);
+            if until > last * (1.0 + 1e-9) {
+                let message = format!(
+                    "the reference holds to {} s, and K is seen to {} s",
+                    rounded(last),
+                    rounded(until)
+                );
+                return Err(Wrong::new("to_arrivals", message, "end earlier, or take a larger plate"));
+            }
+        }
+        let problem = Problem { material, body, plate: self.plate.clone(), load: load.clone(), until };
         let outer = self.outer_horizons.map_or(3.0, |outer| outer.0);
-        let way = Way { start, by: to - start, outer, rayleigh: rayleigh_speed(&elastic) };
+        if outer <= 2.0 {
+            let message = format!("no annulus lies between 2 and {outer} horizons");
+            return Err(Wrong::new("outer_horizons", message, "take more than 2"));
+        }
+        let way = Way { start, before: load.before(), by: until - start, outer, rayleigh };
         let runs = self.speeds.iter().map(|share| way.run(&problem, weights, share.0, self.m.0, &spacings));
         let runs: Vec<Run> = runs.collect::<Result<_, _>>()?;
-        if runs.is_empty() {
-            return Err(Wrong::new("speeds", "no speed is given", "for example [0.2, 0.4, 0.6]"));
-        }
         Ok(RunningCrack {
             title: written.title.to_owned(),
             known,
@@ -158,57 +169,6 @@ impl Asked for RunningAsked {
         })
     }
 }
-
-/// What all speeds have in common.
-struct Way {
-    /// In s.
-    start: f64,
-    /// For how long, in s.
-    by: f64,
-    outer: f64,
-    /// In m/s.
-    rayleigh: f64,
-}
-
-impl Way {
-    fn run(
-        &self,
-        problem: &Problem,
-        weights: Weights,
-        share: f64,
-        m: f64,
-        spacings: &[f64],
-    ) -> Result<Run, Wrong> {
-        if share >= 1.0 {
-            let message = format!("a crack at {share} times the speed of Rayleigh waves has no such K");
-            return Err(Wrong::new("speeds", message, "give parts of that speed below 1"));
-        }
-        let speed = share * self.rayleigh;
-        let mut setups: Vec<Setup> = Vec::new();
-        for &dx in spacings {
-            let reach = self.outer * m * dx + 3.0 * dx;
-            let travel = speed * self.by;
-            let limit = setups.last().map(Setup::limit);
-            let mut setup = problem.on(weights.lattice(m), dx, &[], reach + travel, limit)?;
-            if reach + travel > setup.plate.room() {
-                let message =
-                    format!("the crack at {share} of Rayleigh's speed comes too near to the right edge");
-                return Err(Wrong::new("speeds", message, "take a wider plate, or end earlier"));
-            }
-            setup.scene.running = vec![Running { notch: 0, speed, start: self.start, by: travel + dx }];
-            let limit = setup.limit() * dx / setup.scene.speed();
-            setup.plan = Plan::below(&setup.scene, limit)?;
-            // Several looks in the time in which the tip passes a cell.
-            let looks = (dx / speed / setup.plan.time_step_s / LOOKS).floor().max(1.0);
-            setup.scene.probes[0].every = looks as u64;
-            setups.push(setup);
-        }
-        Ok(Run { share, speed, setups })
-    }
-}
-
-/// Looks while the tip passes a cell, at least where steps are short enough.
-const LOOKS: f64 = 8.0;
 
 impl Question for RunningCrack {
     fn claims(&self, place: &Place) -> Vec<Claim> {
@@ -228,14 +188,14 @@ impl Question for RunningCrack {
                     .source(source)
             })
             .collect();
-        if self.runs[0].setups.len() > 1 {
+        if self.falls() {
             let quantity = format!("levels at which the error of K_{mode} does not fall, all speeds");
             claims.push(
                 claim(place, "not_falling", quantity)
                     .exactly()
                     .because(
                         Basis::Theory,
-                        "the annulus that is read and the zone that cuts bonds both shrink with the horizon",
+                        "what cuts bonds lies beside the tip by a part of the horizon: its trace is the term r^(-1/2), which is fitted, and the annulus shrinks with the horizon",
                     )
                     .source(source),
             );
@@ -281,6 +241,11 @@ fn name(run: &Run) -> String {
 }
 
 impl RunningCrack {
+    /// Whether the error is to fall with the horizon: where the trace of the zone that cuts bonds is fitted too.
+    fn falls(&self) -> bool {
+        self.process_zone && self.runs[0].setups.len() > 1
+    }
+
     /// How far the tip of a run has gone at t in s, in m.
     pub fn gone(&self, run: &Run, t: f64) -> f64 {
         run.speed * (t - self.start).max(0.0)
@@ -323,8 +288,8 @@ impl RunningCrack {
     /// Pairs (smoothed K, reference) within the window.
     pub fn pairs(&self, run: &Run, ran: &Ran) -> Option<Vec<(f64, f64)>> {
         let inside = ran.times.iter().zip(&ran.smoothed).filter(|(t, _)| self.window.holds(**t));
-        let known = inside.filter_map(|(t, k)| k.map(|k| (*t, k)));
-        let pairs: Option<Vec<(f64, f64)>> = known.map(|(t, k)| Some((k, self.known_at(run, t)?))).collect();
+        let pairs: Option<Vec<(f64, f64)>> =
+            inside.map(|(t, k)| Some(((*k)?, self.known_at(run, *t)?))).collect();
         pairs.filter(|pairs| pairs.len() >= 10)
     }
 
@@ -345,11 +310,16 @@ impl RunningCrack {
             .iter()
             .zip(&errors)
             .map(|(run, levels)| {
-                let listed = levels.iter().map(|rms| rounded(*rms)).collect::<Vec<_>>().join(", ");
+                let mut listed = levels.iter().map(|rms| rounded(*rms)).collect::<Vec<_>>().join(", ");
+                for moved in
+                    run.setups.iter().map(|setup| &setup.plate.moved).filter(|moved| !moved.is_empty())
+                {
+                    listed += &format!("; {moved}");
+                }
                 (name(run), error_of(levels.last().copied(), listed))
             })
             .collect();
-        if self.runs[0].setups.len() > 1 {
+        if self.falls() {
             let rising = |levels: &Vec<f64>| -> f64 {
                 if levels.iter().any(|rms| !rms.is_finite()) {
                     return f64::NAN;

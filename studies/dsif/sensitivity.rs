@@ -8,6 +8,7 @@ use super::intensity_report as report;
 use super::known::{KnownAsked, WindowAsked};
 use super::load::LoadAsked;
 use super::plate::PlateAsked;
+use super::said::{check_name, check_reason};
 use crate::convergence::path::WeightsAsked;
 use crate::input::one_or_many;
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of};
@@ -16,7 +17,7 @@ use crate::subject::Subject;
 use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
-use pd_verify::report::plot::{Axis, Dash, Figure, Lines, Series};
+use pd_verify::report::plot::{Axis, Figure, Lines, Series};
 use pd_verify::scene::{Positive, Wrong};
 use pd_verify::stress_intensity::spread::spread_of_histories;
 use pd_verify::verdict::Evidence;
@@ -56,13 +57,33 @@ pub struct WorstAsked {
     pub because: String,
 }
 
+/// Curves that a figure can show.
+const DRAWN: usize = 8;
+
 /// The question.
 pub struct Sensitivity {
     /// One extraction for each radius and number of terms.
     intensity: Intensity,
-    /// Of each of these: which was asked, r_max/δ.
-    ways: Vec<(String, f64)>,
+    /// Of each of these, in the same order.
+    ways: Vec<Way>,
     worst: Vec<WorstAsked>,
+}
+
+/// A way to read K.
+struct Way {
+    /// The extraction that it varies.
+    extraction: String,
+    terms: Option<usize>,
+    /// r_max/δ.
+    outer: f64,
+}
+
+impl Way {
+    /// In legends and notes.
+    fn name(&self) -> String {
+        let terms = self.terms.map_or(String::new(), |terms| format!(", n ≤ {terms}"));
+        format!("{}{terms}", self.extraction.replace('_', " "))
+    }
 }
 
 impl Asked for SensitivityAsked {
@@ -77,6 +98,14 @@ impl Asked for SensitivityAsked {
         let (mut extraction, mut ways) = (Vec::new(), Vec::new());
         for (index, asked) in self.extraction.iter().enumerate() {
             let one = asked.check().map_err(|wrong| wrong.inside(&format!("extraction[{index}]")))?;
+            if asked.outer_m.is_some() || asked.outer_horizons.is_some() {
+                let message = "the outer radii are those of outer_horizons of the case";
+                return Err(Wrong::new(
+                    format!("extraction[{index}]"),
+                    message,
+                    "leave outer_horizons and outer_m out here",
+                ));
+            }
             if one.radii(1.0).is_none() {
                 let message = format!("{} has no annulus", one.name);
                 return Err(Wrong::new(format!("extraction[{index}].method"), message, "leave it out here"));
@@ -96,7 +125,7 @@ impl Asked for SensitivityAsked {
                         terms,
                         ..asked.clone()
                     });
-                    ways.push((format!("{}{}", one.name, said), outer));
+                    ways.push(Way { extraction: one.name.clone(), terms, outer });
                 }
             }
         }
@@ -119,8 +148,18 @@ impl Asked for SensitivityAsked {
             let message = format!("one kind of weights at a time, here {}", intensity.tracks.len());
             return Err(Wrong::new("weights", message, "write one kernel, p, volume rule and calibration"));
         }
+        let mut taken = vec!["spread".to_owned()];
         for (index, worst) in self.expect.iter().enumerate() {
-            if !ways.iter().any(|(name, _)| of(name, &worst.extraction)) {
+            let inside = |wrong: Wrong| wrong.inside(&format!("expect[{index}]"));
+            check_reason(&worst.because).map_err(inside)?;
+            check_name("extraction", &worst.name(), &taken).map_err(inside)?;
+            taken.push(worst.name());
+            if !ways.iter().any(|way| worst.covers(way)) && radii[0] > worst.up_to_horizons.0 {
+                let message = format!("no radius is as small as {} horizons", worst.up_to_horizons.0);
+                let key = format!("expect[{index}].up_to_horizons");
+                return Err(Wrong::new(key, message, format!("take {} or more", radii[0])));
+            }
+            if !ways.iter().any(|way| way.extraction == worst.extraction) {
                 let message = format!("no extraction is called \"{}\"", worst.extraction);
                 let key = format!("expect[{index}].extraction");
                 return Err(Wrong::new(key, message, "name one of the case's extractions"));
@@ -130,9 +169,17 @@ impl Asked for SensitivityAsked {
     }
 }
 
-/// Whether a way belongs to an extraction.
-fn of(way: &str, extraction: &str) -> bool {
-    way.strip_prefix(extraction).is_some_and(|rest| rest.is_empty() || rest.starts_with("_n"))
+impl WorstAsked {
+    /// Of its claim.
+    fn name(&self) -> String {
+        let radius = self.up_to_horizons.0.to_string().replace('.', "_");
+        format!("{}_worst_to_{radius}", self.extraction)
+    }
+
+    /// Whether a way is among those that are claimed.
+    fn covers(&self, way: &Way) -> bool {
+        way.extraction == self.extraction && way.outer <= self.up_to_horizons.0 * (1.0 + 1e-9)
+    }
 }
 
 impl Question for Sensitivity {
@@ -144,7 +191,7 @@ impl Question for Sensitivity {
                 worst.extraction.replace('_', " "),
                 worst.up_to_horizons.0
             );
-            claim(place, &format!("{}_worst", worst.extraction), quantity)
+            claim(place, &worst.name(), quantity)
                 .at_most(ErrorKind::RmsOfPeak, worst.at_most.0)
                 .because(worst.basis, worst.because.clone())
                 .source(source)
@@ -194,18 +241,13 @@ impl Sensitivity {
         let reads = &found.reads[0][0];
         let mut evidence = Vec::new();
         for worst in &self.worst {
-            let mine = self.ways.iter().zip(reads).filter(|((name, outer), _)| {
-                of(name, &worst.extraction) && *outer <= worst.up_to_horizons.0 * (1.0 + 1e-9)
-            });
+            let mine = self.ways.iter().zip(reads).filter(|(way, _)| worst.covers(way));
             let all: Vec<(String, f64)> = mine
-                .map(|((name, outer), read)| (format!("{name}, {outer} delta"), self.rms(read)))
+                .map(|(way, read)| (format!("{}, {} delta", way.name(), way.outer), self.rms(read)))
                 .collect();
             let most = largest(all.iter().map(|(_, rms)| *rms));
             let at = all.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or("", |(name, _)| name.as_str());
-            evidence.push((
-                format!("{}_worst", worst.extraction),
-                error_of(most, format!("{at}, of {}", all.len())),
-            ));
+            evidence.push((worst.name(), error_of(most, format!("{at}, of {}", all.len()))));
         }
         evidence.push(("spread".into(), self.spread(reads)));
         evidence
@@ -236,31 +278,32 @@ impl Sensitivity {
 
     fn figure(&self, found: &Found, place: &Place) -> Figure {
         let reads = &found.reads[0][0];
-        let mut names: Vec<&String> = Vec::new();
-        self.ways.iter().for_each(|(name, _)| {
+        let mut names: Vec<String> = Vec::new();
+        for name in self.ways.iter().map(Way::name) {
             if !names.contains(&name) {
-                names.push(name)
+                names.push(name);
             }
-        });
-        let of_name = |(slot, name): (usize, &&String)| {
-            let mine = self.ways.iter().zip(reads).filter(|((way, _), _)| way == *name);
-            let points = mine.map(|((_, outer), read)| (*outer, 100.0 * self.rms(read)));
-            let label = name.replace("_n", ", n ≤ ").replace('_', " ");
-            let series = Series::both(label, points.collect()).slot(slot);
-            if name.contains("_n") { series } else { series.dash(Dash::Solid).width(2.8) }
+        }
+        let of_name = |(slot, name): (usize, &String)| {
+            let mine = self.ways.iter().zip(reads).filter(|(way, _)| way.name() == *name);
+            let points = mine.map(|(way, read)| (way.outer, 100.0 * self.rms(read)));
+            Series::both(name.clone(), points.collect()).slot(slot)
         };
-        let series = names.iter().take(8).enumerate().map(of_name).collect();
+        let series = names.iter().take(DRAWN).enumerate().map(of_name).collect();
         let lines = Lines::new(
             Axis::linear("outer radius of the annulus (δ)"),
             Axis::log("rms error (% of the largest K)"),
             series,
         );
-        let caption = format!(
+        let mut caption = format!(
             "Error of K of mode {} by the outer radius and the highest term n that it is read with; {}, cells of {} m.",
             self.intensity.load.mode.word(),
             self.intensity.tracks[0].name,
             rounded(self.intensity.tracks[0].setups[0].scene.spacing)
         );
+        if names.len() > DRAWN {
+            caption += &format!(" {} more ways are in dsif_errors.csv.", names.len() - DRAWN);
+        }
         Figure::new(place.case.clone(), self.intensity.title.clone(), caption, lines)
     }
 }

@@ -37,7 +37,7 @@ pub struct Setup {
 /// The part of the lattice's limit on Δt that is taken: leapfrog disperses least near the limit.
 const OF_LIMIT: f64 = 0.9;
 /// Looks at the tip over a march, about.
-const LOOKS: u64 = 100;
+const LOOKS: u64 = 400;
 /// Name of the probe.
 const SEEN: &str = "tip";
 
@@ -74,7 +74,8 @@ impl Problem {
                 .map_err(|wrong| wrong.inside(&format!("extraction[{index}]")))?;
         }
         let reach = extractions.iter().map(|one| one.reach(horizon, dx)).fold(around.max(4.0 * dx), f64::max);
-        let box_ = [-reach, reach].map(|by| plate.tip.map(|x| x + by));
+        let size = plate.nodes.map(|count| count as f64 * dx);
+        let box_ = [-reach, reach].map(|by| [0, 1].map(|axis| (plate.tip[axis] + by).clamp(0.0, size[axis])));
         let time = Time { duration: self.until + self.load.before(), step: StepRule::OfLimit(OF_LIMIT) };
         let mut scene = Scene {
             edges: plate.edges(),
@@ -91,7 +92,7 @@ impl Problem {
         let every = (plan.steps / LOOKS).max(1);
         scene.probes =
             vec![Probe { name: SEEN.into(), watch: Watch::Patch { from: box_[0], to: box_[1] }, every }];
-        let tip = Tip { sites, horizon, crack: plate.crack };
+        let tip = Tip { sites, horizon, crack: plate.free_crack(horizon) };
         for (index, extraction) in extractions.iter().enumerate() {
             let prepared = extraction.prepare(&tip, &elastic);
             prepared.map_err(|no| Wrong::new(format!("extraction[{index}]"), no.to_string(), no.cure()))?;

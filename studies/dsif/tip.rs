@@ -6,6 +6,7 @@
 //! factor is not 1 does not converge; divided by it, it does.
 
 use super::extraction::{Extraction, Prepared};
+use super::plate::BEFORE_TIP;
 use crate::subject::Subject;
 use pd_verify::constraints::HeldFrame;
 use pd_verify::forces::surface::Correction;
@@ -58,11 +59,10 @@ impl TipAtRest {
         let half = (reach * lattice.m).ceil() as usize;
         let columns = 2 * half + usize::from(!between_columns);
         let at = [0.5 * columns as f64, half as f64];
-        let short = 1e-3;
         let time = Time { duration: 1.0, step: StepRule::OfLimit(1.0) };
         let bare = Scene {
             surface,
-            notches: vec![Notch { from: [0.0, at[1]], to: [at[0] - short, at[1]] }],
+            notches: vec![Notch { from: [0.0, at[1]], to: [at[0] - BEFORE_TIP, at[1]] }],
             ..Scene::bare(material, body, lattice, [columns, 2 * half], 1.0, time)
         };
         let scenes = Mode::BOTH.map(|mode| {

@@ -4,6 +4,7 @@
 use super::extraction::{Extraction, ExtractionAsked};
 use super::intensity::extractions;
 use super::load::ModeName;
+use super::said::{check_name, check_reason};
 use super::tip::{REACH, TipAtRest, TipField};
 use super::tip_factor_report as report;
 use crate::bar::names;
@@ -88,6 +89,16 @@ impl Asked for TipFactorAsked {
     type Question = TipFactor;
 
     fn check(&self, written: &Written<'_>) -> Result<TipFactor, Wrong> {
+        for (index, asked) in self.extraction.iter().enumerate() {
+            for (key, given) in
+                [("tip_factor", asked.tip_factor.is_some()), ("outer_m", asked.outer_m.is_some())]
+            {
+                if given {
+                    let message = format!("{key} says nothing about a tip that is alone with its horizon");
+                    return Err(Wrong::new(format!("extraction[{index}].{key}"), message, "leave it out"));
+                }
+            }
+        }
         let extractions = extractions(&self.extraction)?;
         let weights = self.weights.all().map_err(|wrong| wrong.inside("weights"))?;
         let mut lattices = Vec::new();
@@ -97,10 +108,15 @@ impl Asked for TipFactorAsked {
                 let lattice = weights.lattice(m.0);
                 let ready = TipAtRest::new(lattice, (Body::PlaneStress, Correction::None), true, REACH);
                 let ready = ready.map_err(|message| Wrong::new("m", message, "take a larger m"))?;
+                let smaller =
+                    TipAtRest::new(lattice, (Body::PlaneStress, Correction::None), true, SMALLER * REACH);
+                let smaller = smaller.map_err(|message| Wrong::new("m", message, "take a larger m"))?;
                 for (index, extraction) in extractions.iter().enumerate() {
-                    extraction.prepare(&ready.tip, &ready.elastic()).map_err(|no| {
-                        Wrong::new(format!("extraction[{index}]"), no.to_string(), no.cure())
-                    })?;
+                    for tip in [&ready, &smaller] {
+                        extraction.prepare(&tip.tip, &tip.elastic()).map_err(|no| {
+                            Wrong::new(format!("extraction[{index}]"), no.to_string(), no.cure())
+                        })?;
+                    }
                 }
                 lattices.push(lattice);
                 slugs.push((weights.slug(), m.0));
@@ -122,10 +138,20 @@ impl Asked for TipFactorAsked {
             Ok(Number { asked: asked.clone(), lattice, extraction })
         };
         let numbers = self.number.iter().enumerate().map(number).collect::<Result<_, Wrong>>()?;
+        let mut taken = BUILT_IN.map(str::to_owned).to_vec();
+        for (index, asked) in self.number.iter().enumerate() {
+            let inside = |wrong: Wrong| wrong.inside(&format!("number[{index}]"));
+            check_name("name", &asked.name, &taken).map_err(inside)?;
+            check_reason(&asked.because).map_err(inside)?;
+            taken.push(asked.name.clone());
+        }
         let names = names::names(&lattices);
         Ok(TipFactor { title: written.title.to_owned(), lattices, names, extractions, numbers })
     }
 }
+
+/// Claims that every case of this kind makes.
+const BUILT_IN: [&str; 2] = ["any_size", "any_plane"];
 
 /// The other patch, in parts of [`REACH`].
 const SMALLER: f64 = 0.7;

@@ -43,9 +43,9 @@ extraction = [{ method = "williams" }]
 [[case.expect]]
 extraction = "williams"
 quantity = "l2"
-at_most = 0.05
+at_most = 0.1
 basis = "engineering"
-because = "a coarse lattice against finite elements"
+because = "a coarse lattice against finite elements, the first front among what is judged"
 "#;
 
 fn place(case: &str) -> Place {
@@ -85,6 +85,7 @@ fn a_tip_that_was_moved_is_said_to_be() {
 
 #[test]
 fn what_no_reading_or_answer_can_serve_is_refused_and_nothing_is_written() {
+    let short = WAVE.replace("to_arrivals = 2.9", "to_arrivals = 1.75");
     let outer = "extraction = [{ method = \"williams\", outer_mm = ";
     for (case, old, new, said) in [
         (
@@ -94,8 +95,9 @@ fn what_no_reading_or_answer_can_serve_is_refused_and_nothing_is_written() {
             "inside the nonlocal zone",
         ),
         (WAVE, "extraction = [{", &format!("{outer}60 }}, {{"), "lies 0.02 m from an edge"),
-        (WAVE, "crack_length_mm = 50", "crack_length_mm = 8", "beyond the other end of the crack"),
-        (WAVE, "crack_length_mm = 50", "crack_length_mm = 96", "from an edge"),
+        (&short, "crack_length_mm = 50", "crack_length_mm = 8", "beyond the other end of the crack"),
+        (WAVE, "crack_length_mm = 50", "crack_length_mm = 96", "the reference holds from"),
+        (WAVE, "size_mm = [100, 40]", "size_mm = [100, 41]", "divide half the height"),
         (WAVE, "crack_length_mm = 50", "crack_length_mm = 100", "ends outside the plate"),
         (
             WAVE,
