@@ -275,6 +275,11 @@ impl Expect {
         }
     }
 
+    /// Whether tip factors are compared.
+    pub fn asks_for_factors(&self) -> bool {
+        self.asked.quantity == QuantityName::Ratio
+    }
+
     fn published(&self) -> bool {
         self.asked.against_published == Some(true)
     }

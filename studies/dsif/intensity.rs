@@ -243,9 +243,16 @@ impl Intensity {
         self.tracks.iter().flat_map(|track| &track.setups)
     }
 
+    /// Those whose tips at rest are asked for: none where nothing is divided by a tip factor or compared with one.
+    fn with_tips(&self) -> impl Iterator<Item = &Setup> {
+        let divided = self.extractions.iter().any(|one| one.tip_factor);
+        let needed = divided || self.expect.iter().any(Expect::asks_for_factors);
+        self.setups().filter(move |_| needed)
+    }
+
     /// Marches every lattice and reads K in every way.
     pub fn find(&self, subject: &dyn Subject) -> Result<Found, String> {
-        self.find_with(subject, &Tips::of(self.setups(), subject)?)
+        self.find_with(subject, &Tips::of(self.with_tips(), subject)?)
     }
 
     /// The same where the tips at rest are known.
@@ -303,7 +310,7 @@ impl Question for Intensity {
 
     fn effort(&self) -> Effort {
         let mut total = Effort::of_scenes(&self.scenes());
-        total += Tips::effort(self.setups());
+        total += Tips::effort(self.with_tips());
         total
     }
 

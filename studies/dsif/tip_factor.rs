@@ -154,7 +154,7 @@ impl Asked for TipFactorAsked {
 const BUILT_IN: [&str; 2] = ["any_size", "any_plane"];
 
 /// The other patch, in parts of [`REACH`].
-const SMALLER: f64 = 0.7;
+const SMALLER: f64 = 0.6;
 /// What the frame adds falls with the power 3/2 of its distance, and K far from the tip is read from a series that ends:
 /// parts in a thousand; in mode II the stretched layers along the faces leave a logarithm of the distance beside.
 const SAME: f64 = 5e-3;
@@ -164,9 +164,9 @@ const ROUNDING: f64 = 1e-9;
 impl Question for TipFactor {
     fn claims(&self, place: &Place) -> Vec<Claim> {
         let mut claims = vec![
-            claim(place, "any_size", "largest change of a tip factor when the patch is a third smaller")
+            claim(place, "any_size", "largest change of a tip factor when the patch is two fifths smaller")
                 .at_most(ErrorKind::Relative, SAME)
-                .because(Basis::Theory, "around a tip at rest the horizon is the only length: seen in units of it the field is the same in any patch that is large enough; 5e-3 leaves room for what a frame at 14 horizons adds, in mode II with a logarithm")
+                .because(Basis::Theory, "around a tip at rest the horizon is the only length: seen in units of it the field is the same in any patch that is large enough; 5e-3 leaves room for what a frame at 12 horizons adds, in mode II with a logarithm")
                 .source("the same lattice in a smaller patch"),
             claim(place, "any_plane", "largest difference of a tip factor between plane stress and plane strain")
                 .at_most(ErrorKind::Relative, ROUNDING)
