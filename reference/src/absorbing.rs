@@ -5,56 +5,7 @@
 //! Banded Gaussian elimination with row exchanges, then u = A e^{ikx} + B e^{−ikx} fitted by least squares between
 //! force and joint: |R| = |B/A|. In doubles.
 
-use std::ops::{Add, Div, Mul, Sub};
-
-/// A complex number.
-#[derive(Clone, Copy, Default)]
-struct Complex {
-    re: f64,
-    im: f64,
-}
-
-impl Complex {
-    fn turned(angle: f64) -> Self {
-        let (im, re) = libm::sincos(angle);
-        Self { re, im }
-    }
-    fn conjugate(self) -> Self {
-        Self { im: -self.im, ..self }
-    }
-    fn size(self) -> f64 {
-        libm::hypot(self.re, self.im)
-    }
-}
-
-impl Add for Complex {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { re: self.re + other.re, im: self.im + other.im }
-    }
-}
-
-impl Sub for Complex {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self { re: self.re - other.re, im: self.im - other.im }
-    }
-}
-
-impl Mul for Complex {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
-    }
-}
-
-impl Div for Complex {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
-        let (top, square) = (self * other.conjugate(), other.re * other.re + other.im * other.im);
-        Self { re: top.re / square, im: top.im / square }
-    }
-}
+use crate::complex::Complex;
 
 /// Neighbour distance and weight of each pair.
 type Stencil = [(usize, f64)];
@@ -143,12 +94,12 @@ fn returned_over_sent(u: &[Complex], k: f64) -> f64 {
     let (mut onward, mut back, mut overlap) = (Complex::default(), Complex::default(), Complex::default());
     for (i, value) in u.iter().enumerate() {
         let wave = Complex::turned(k * i as f64);
-        onward = onward + wave.conjugate() * *value;
+        onward = onward + wave.conj() * *value;
         back = back + wave * *value;
         overlap = overlap + wave * wave;
     }
     let count = Complex { re: u.len() as f64, im: 0.0 };
-    let (sent, returned) = (count * onward - overlap.conjugate() * back, count * back - overlap * onward);
+    let (sent, returned) = (count * onward - overlap.conj() * back, count * back - overlap * onward);
     returned.size() / sent.size()
 }
 

@@ -1,9 +1,9 @@
-//! Complex numbers, as far as potentials of plane elasticity need them.
+//! Complex numbers, as far as potentials of plane elasticity and waves in a chain need them.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// re + i im.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Complex {
     pub re: f64,
     pub im: f64,
@@ -20,9 +20,20 @@ impl Complex {
         Self { re: self.re, im: -self.im }
     }
 
+    /// e^{i angle}.
+    pub fn turned(angle: f64) -> Self {
+        let (im, re) = libm::sincos(angle);
+        Self { re, im }
+    }
+
+    /// |z|.
+    pub fn size(self) -> f64 {
+        libm::hypot(self.re, self.im)
+    }
+
     /// z^{n/2}, cut along the negative real axis; the sign of a zero imaginary part says on which side of it z is.
     pub fn half_power(self, n: i32) -> Self {
-        let (r, angle) = (libm::hypot(self.re, self.im), libm::atan2(self.im, self.re));
+        let (r, angle) = (self.size(), libm::atan2(self.im, self.re));
         let (sin, cos) = libm::sincos(0.5 * f64::from(n) * angle);
         let length = if n.rem_euclid(2) == 0 {
             libm::pow(r, f64::from(n / 2))
@@ -71,6 +82,7 @@ impl Mul<f64> for Complex {
 impl Div for Complex {
     type Output = Self;
     fn div(self, other: Self) -> Self {
-        self * other.conj() * (1.0 / (other.re * other.re + other.im * other.im))
+        let (top, square) = (self * other.conj(), other.re * other.re + other.im * other.im);
+        Self { re: top.re / square, im: top.im / square }
     }
 }

@@ -8,6 +8,8 @@ use pd_verify::lattice::Lattice;
 use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Panel, Series};
 use pd_verify::table::{Cell, Table};
 
+/// Curves that one panel can show.
+const DRAWN: usize = 8;
 const MODES: [&str; 2] = ["I", "II"];
 
 /// A row for every lattice, reading and mode. A spacing has no part in it.
@@ -58,7 +60,7 @@ pub fn figures(asked: &TipFactor, all: &[Factors], place: &Place) -> Vec<Figure>
             let points = mine.map(|(lattice, factors)| (lattice.m, factors.here[extraction][mode]));
             Series::both(label(kind), points.collect()).slot(slot)
         };
-        let series = kinds.iter().take(8).enumerate().map(of_kind).collect();
+        let series = kinds.iter().take(DRAWN).enumerate().map(of_kind).collect();
         let title = format!("{}, mode {}", asked.extractions[extraction].name.replace('_', " "), MODES[mode]);
         let mut lines =
             Lines::new(Axis::linear("m = δ/Δx"), Axis::linear("tip factor"), series).titled(title);
@@ -69,7 +71,10 @@ pub fn figures(asked: &TipFactor, all: &[Factors], place: &Place) -> Vec<Figure>
         .flat_map(|one| [0, 1].map(|mode| (one, mode)))
         .map(|(one, mode)| panel(one, mode));
     let Some(first) = panels.next() else { return Vec::new() };
-    let caption = "What a reading finds in the static field of a tip over the K that is there: 1 would be exact. Refining at fixed m does not change it.";
+    let mut caption = "What a reading finds in the static field of a tip over the K that is there: 1 would be exact. Refining at fixed m does not change it.".to_owned();
+    if kinds.len() > DRAWN {
+        caption += &format!(" {} more weights are in dsif_tip_factor.csv.", kinds.len() - DRAWN);
+    }
     let figure = Figure::new(place.case.clone(), asked.title.clone(), caption, first);
     vec![panels.fold(figure, Figure::panel).columns(2)]
 }

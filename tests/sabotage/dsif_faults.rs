@@ -44,9 +44,9 @@ pub fn all() -> Vec<Fault> {
         fault("fine grids are a fifth softer", WAVES, march(soft_when_fine)),
         fault("plates on rollers are a fifth softer", EDGES, march(soft_on_rollers)),
         fault("calibration is forgotten", SHORT, march(printed)),
-        fault("K is read a twentieth too large", WAVES, Box::new(OtherReading(|k| k.map(|k| 1.05 * k)))),
-        fault("the acceleration is not seen", EDGES, Box::new(NoAcceleration)),
-        fault("the stress of the faces is not seen", SHORT, Box::new(NoFaces)),
+        fault("K is read a twentieth too large", WAVES, Box::new(OtherLook(LARGER))),
+        fault("the acceleration is not seen", EDGES, Box::new(OtherLook(NO_ACCELERATION))),
+        fault("the stress of the faces is not seen", SHORT, Box::new(OtherLook(NO_FACES))),
         fault("looks come much too early", EDGES, Box::new(Early)),
         fault("a running tip is read as one at rest", &["dsif-running"], Box::new(AtRest)),
         fault("what is printed comes out as printed", EDGES, Box::new(AsPrinted)),
@@ -109,10 +109,13 @@ fn soft_on_rollers(scene: &mut Scene<2>) {
     }
 }
 
-/// K is another than the one that is read.
-struct OtherReading(fn([f64; 2]) -> [f64; 2]);
+/// A look at the tip, and what is read from it.
+type Read = fn(&Reading, &[[f64; 2]], &[[f64; 2]], Faces) -> [f64; 2];
 
-impl Subject for OtherReading {
+/// K is read in another way than the one asked for.
+struct OtherLook(Read);
+
+impl Subject for OtherLook {
     fn stress_intensity(
         &self,
         reading: &Reading,
@@ -120,38 +123,13 @@ impl Subject for OtherReading {
         acceleration: &[[f64; 2]],
         faces: Faces,
     ) -> [f64; 2] {
-        (self.0)(PdVerify.stress_intensity(reading, displacement, acceleration, faces))
+        (self.0)(reading, displacement, acceleration, faces)
     }
 }
 
-struct NoAcceleration;
-
-impl Subject for NoAcceleration {
-    fn stress_intensity(
-        &self,
-        reading: &Reading,
-        displacement: &[[f64; 2]],
-        acceleration: &[[f64; 2]],
-        faces: Faces,
-    ) -> [f64; 2] {
-        let none = vec![[0.0; 2]; acceleration.len()];
-        PdVerify.stress_intensity(reading, displacement, &none, faces)
-    }
-}
-
-struct NoFaces;
-
-impl Subject for NoFaces {
-    fn stress_intensity(
-        &self,
-        reading: &Reading,
-        displacement: &[[f64; 2]],
-        acceleration: &[[f64; 2]],
-        _: Faces,
-    ) -> [f64; 2] {
-        PdVerify.stress_intensity(reading, displacement, acceleration, Faces::default())
-    }
-}
+const LARGER: Read = |reading, u, a, faces| reading.at_loaded(u, a, faces).map(|k| 1.05 * k);
+const NO_ACCELERATION: Read = |reading, u, a, faces| reading.at_loaded(u, &vec![[0.0; 2]; a.len()], faces);
+const NO_FACES: Read = |reading, u, a, _| reading.at_loaded(u, a, Faces::default());
 
 /// What is seen at t is said to have been seen at 0.6 t.
 struct Early;
