@@ -130,6 +130,18 @@ fn what_no_reading_or_answer_can_serve_is_refused_and_nothing_is_written() {
     }
 }
 
+/// A wave comes from an edge, whose height counts; a load on the faces does not.
+#[test]
+fn the_height_counts_where_a_wave_comes_from_an_edge() {
+    let odd = WAVE.replace("size_mm = [100, 40]", "size_mm = [100, 41]");
+    place(&odd).refuses(&["plan", "study.toml"], &["divide half the height"]);
+    let faces = odd
+        .replace("on = \"top\"", "on = \"faces\"")
+        .replace("from_arrivals = 1.25, to_arrivals = 2.9", "from_us = 1, to_us = 3")
+        .replace(", lateral = \"rollers\"", "");
+    place(&faces).run(&["plan", "study.toml"]).code(0);
+}
+
 #[test]
 fn a_case_that_claims_nothing_is_no_success() {
     let silent = WAVE.split("[[case.expect]]").next().unwrap().to_owned();
