@@ -1,15 +1,23 @@
 //! A block of the lattice: where its nodes stand, the halo around them, and how a field of vectors lies in memory.
 //!
-//! Nodes stand at the centres of cells of size Δx. A field is a `Vec<f64>`, row after row; within a row one component
-//! after the other, each with a halo on both sides. A bar has one row; a plate has halo rows below and above too.
-//! So a bond is one distance in memory for every node, rows are contiguous for the vector units, and whole rows are
-//! contiguous for threads. Work is cut into fixed pieces that know nothing of threads: results do not depend on them.
+//! Nodes stand at the centres of cells of size Δx. A [`Field`] lies row after row; within a row one component after the
+//! other, each with a halo on both sides that is filled up to whole cache lines, so that the first node of every row begins
+//! one. A bar has one row; a plate has halo rows below and above too. So a bond is one distance in memory for every node,
+//! rows are contiguous for the vector units, and whole rows are contiguous for threads. Work is cut into fixed pieces that
+//! know nothing of threads: results do not depend on them.
 
+use crate::field::Field;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Nodes of a piece of work, about: small enough for a core's cache, large enough to be worth a thread.
-const PIECE: usize = 8192;
+/// Nodes of a piece of work, about: small enough that some steps of neighbouring pieces fit a core's cache.
+const PIECE: usize = 4096;
+
+/// Rows of a piece, at least: a strip of so many rows passes through the first cache once.
+const ROWS: usize = 4;
+
+/// Numbers in a cache line, and nodes in the widest vector.
+const LINE: usize = 8;
 
 /// A block of nodes with its halo.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,7 +86,12 @@ impl<const D: usize> Grid<D> {
 
     /// From one component of a node to the next; also the length of a row of one component.
     pub fn stride(&self) -> usize {
-        self.nodes[0] + 2 * self.halo
+        2 * self.before() + self.nodes[0].next_multiple_of(LINE)
+    }
+
+    /// Numbers before the first node of a row, and as many behind the line of the last.
+    fn before(&self) -> usize {
+        self.halo.max(1).next_multiple_of(LINE)
     }
 
     /// From one row to the next.
@@ -96,17 +109,36 @@ impl<const D: usize> Grid<D> {
         if D == 1 { 0 } else { self.halo }
     }
 
+    /// Numbers of a field.
+    pub fn len(&self) -> usize {
+        self.row() * (self.rows() + 2 * self.halo_rows())
+    }
+
+    /// Whether a field holds nothing; it never does.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// A field of zeros.
-    pub fn field(&self) -> Vec<f64> {
-        vec![0.0; self.row() * (self.rows() + 2 * self.halo_rows())]
+    pub fn field(&self) -> Field {
+        Field::zeros(self.len())
     }
 
     /// Place of a node's first component; indices may reach into the halo.
     pub fn place(&self, node: [isize; D]) -> usize {
         let row = node.get(1).copied().unwrap_or(0) + self.halo_rows() as isize;
-        let place = row * self.row() as isize + node[0] + self.halo as isize;
+        let place = row * self.row() as isize + node[0] + self.before() as isize;
         debug_assert!(place >= 0);
         place as usize
+    }
+
+    /// The node whose first component has a place.
+    pub fn node(&self, place: usize) -> [isize; D] {
+        let mut node = [(place % self.row()) as isize - self.before() as isize; D];
+        if let Some(row) = node.get_mut(1) {
+            *row = (place / self.row()) as isize - self.halo_rows() as isize;
+        }
+        node
     }
 
     /// Distance in memory from a node to its neighbour at `offset`.
@@ -132,15 +164,42 @@ impl<const D: usize> Grid<D> {
         })
     }
 
-    /// Where the rows with nodes lie in a field.
+    /// Where the nodes lie in a field: whole rows of a plate, whole lines of a bar.
     pub fn body(&self) -> Range<usize> {
+        if D == 1 {
+            return self.before()..self.before() + self.nodes[0].next_multiple_of(LINE);
+        }
         let first = self.halo_rows() * self.row();
         first..first + self.rows() * self.row()
     }
 
-    /// Length in memory of a piece of work; the last may be shorter.
+    /// Length in memory of a piece of work; the last may be shorter. That of a bar is longer than the halo.
     pub fn piece(&self) -> usize {
-        if D == 1 { PIECE } else { self.row() * (PIECE / self.nodes[0]).max(1) }
+        if D > 1 {
+            return self.row() * (PIECE / self.nodes[0]).max(ROWS);
+        }
+        let (all, least) = (self.body().len(), self.before() + LINE);
+        let long = |piece: &usize| all <= *piece || all % piece == 0 || all % piece >= least;
+        (PIECE.max(least)..).step_by(LINE).find(long).unwrap_or(all)
+    }
+
+    /// Where a piece lies in a field.
+    pub fn range(&self, piece: usize) -> Range<usize> {
+        let start = self.body().start + piece * self.piece();
+        start..(start + self.piece()).min(self.body().end)
+    }
+
+    /// How many pieces away a piece is seen by the nodes of another.
+    pub fn lag(&self) -> usize {
+        let reach = if D == 1 { self.halo } else { self.halo * self.row() };
+        reach.div_ceil(self.piece()).max(1)
+    }
+
+    /// What the nodes of a piece see of a field: the piece, and the halo around it.
+    pub fn seen(&self, piece: usize) -> Range<usize> {
+        let range = self.range(piece);
+        let around = if D == 1 { self.before() } else { self.halo * self.row() };
+        range.start.saturating_sub(around)..(range.end + around).min(self.len())
     }
 
     /// Number of pieces.
@@ -170,14 +229,16 @@ mod tests {
     #[test]
     fn neighbours_are_one_shift_away() {
         let grid = Grid::<2>::new([7, 5], 0.5, 3);
-        assert_eq!(grid.field().len(), 2 * 13 * 11);
+        assert_eq!((grid.stride(), grid.field().len()), (24, 2 * 24 * 11));
         for node in grid.each() {
             let to = [node[0] - 2, node[1] + 3];
             assert_eq!(grid.place(node).wrapping_add_signed(grid.shift([-2, 3])), grid.place(to));
             assert!(grid.body().contains(&grid.place(node)));
+            assert_eq!(grid.node(grid.place(node)), node);
+            assert_eq!((grid.place([0, node[1]]) * size_of::<f64>()) % 64, 0);
         }
         assert_eq!(grid.position([0, 4]), [0.25, 2.25]);
-        assert_eq!(grid.place([-3, -3]), 0);
+        assert_eq!(grid.place([-8, -3]), 0);
     }
 
     #[test]
@@ -200,7 +261,7 @@ mod tests {
         assert_eq!(runs.len(), bar.pieces());
         assert_eq!(runs.iter().flatten().map(|run| run.len).sum::<usize>(), 20_000 - 20);
         for (piece, runs) in runs.iter().enumerate() {
-            let range = piece * bar.piece()..(piece + 1) * bar.piece();
+            let range = bar.range(piece);
             assert!(runs.iter().all(|run| range.contains(&run.start) && run.start + run.len <= range.end));
         }
         let plate = Grid::<2>::new([300, 100], 1.0, 2);

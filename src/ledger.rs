@@ -7,6 +7,7 @@
 //! Bonds that break between two steps take their part of this form with them: ½ u(n)ᵀk u(n+1), an account of its own.
 
 use crate::breaking::Broken;
+use crate::field::{Field, Window};
 use crate::forces::{Class, Now};
 use crate::model::{Inertia, Model};
 
@@ -40,13 +41,13 @@ pub struct Ledger<const D: usize> {
     /// What bonds held that were cut after the step booked last: the next step no longer has them.
     cut: f64,
     /// Forces after those of class internal, and after the loads.
-    internal: Vec<f64>,
-    loaded: Vec<f64>,
-    before: Vec<f64>,
+    internal: Field,
+    loaded: Field,
+    before: Field,
     /// E(n), where ½uᵀKu is not the energy.
     energy: Option<f64>,
     /// Forces of class internal at n + 1, where they are needed for the energy.
-    next: Vec<f64>,
+    next: Field,
 }
 
 impl<const D: usize> Ledger<D> {
@@ -59,7 +60,7 @@ impl<const D: usize> Ledger<D> {
             loaded: field(),
             before: field(),
             energy: None,
-            next: if model.linear { Vec::new() } else { field() },
+            next: if model.linear { Field::default() } else { field() },
         }
     }
 
@@ -83,21 +84,22 @@ impl<const D: usize> Ledger<D> {
 
     /// Notes what bonds held that broke after the step booked last; `before` is what was broken then.
     pub(crate) fn release(&mut self, model: &Model<D>, now: &Now<'_>, before: &Broken) {
-        let pairs = now.displacement.iter().zip(now.increment);
-        let mut earlier: Vec<f64> = pairs.map(|(u, d)| u - d).collect();
+        let pairs = now.displacement.values().iter().zip(now.increment.values());
+        let mut earlier: Field = pairs.map(|(u, d)| u - d).collect();
         model.fill_ghosts(&mut earlier);
-        self.cut += model.released(&Now { displacement: &earlier, broken: before, ..*now }, now);
+        self.cut +=
+            model.released(&Now { displacement: Window::from(&earlier), broken: before, ..*now }, now);
     }
 
     /// Keeps d(n), and hands it back when the step is done.
-    pub(crate) fn remember(&mut self, increment: &[f64]) -> Vec<f64> {
+    pub(crate) fn remember(&mut self, increment: &[f64]) -> Field {
         let mut before = std::mem::take(&mut self.before);
         before.copy_from_slice(increment);
         before
     }
 
     /// Books a step from d(n), the force at n, and the state at n+1 with the bonds of n.
-    pub(crate) fn book(&mut self, model: &Model<D>, before: Vec<f64>, force: &[f64], now: &Now<'_>) {
+    pub(crate) fn book(&mut self, model: &Model<D>, before: Field, force: &[f64], now: &Now<'_>) {
         let Now { displacement, increment, time_step, .. } = *now;
         let mut sums = Balance::default();
         for node in model.grid.each() {
@@ -128,7 +130,7 @@ impl<const D: usize> Ledger<D> {
         if let Some(energy) = self.energy {
             self.next.fill(0.0);
             model.add_forces(model.of_class(Class::Internal), now, &mut self.next);
-            let stiff = increment.iter().zip(self.next.iter().zip(&self.internal));
+            let stiff = increment.values().iter().zip(self.next.iter().zip(self.internal.iter()));
             let bend: f64 = stiff.map(|(d, (next, force))| d * (next - force)).sum();
             self.balance.elastic = 0.5 * (energy + model.energy(now)) + 0.25 * volume * bend;
         }

@@ -14,6 +14,7 @@ use crate::forces::{
 use crate::grid::Grid;
 use crate::lattice::Stencil;
 use crate::scene::{Acts, Operator, Rotations, Scene, Setting, Wrong};
+use crate::simd::Isa;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -40,11 +41,18 @@ pub struct Model<const D: usize> {
     pub breaking: Option<RunningNotches>,
     /// Whether the forces are linear in u, so that ½uᵀKu is the elastic energy.
     pub linear: bool,
+    /// For which the kernels run.
+    pub isa: Isa,
 }
 
 impl<const D: usize> Model<D> {
-    /// The model of a scene that [`crate::plan::Plan::of`] accepts.
+    /// The model of a scene that [`crate::plan::Plan::of`] accepts, for the chosen instruction set.
     pub fn new(scene: &Scene<D>) -> Result<Self, Wrong> {
+        Self::on(scene, Isa::chosen())
+    }
+
+    /// The same for an instruction set.
+    pub fn on(scene: &Scene<D>, isa: Isa) -> Result<Self, Wrong> {
         let unusable =
             |wrong: crate::lattice::Unusable| Wrong::new("lattice.m", wrong.to_string(), wrong.cure());
         let stencil = Stencil::<D>::new(scene.lattice).map_err(unusable)?;
@@ -52,8 +60,8 @@ impl<const D: usize> Model<D> {
         let offsets: Vec<[i32; D]> = stencil.bonds.iter().map(|bond| bond.offset).collect();
         let breaking = RunningNotches::of(scene, &offsets, &grid);
         let bonds = match scene.rotations {
-            Rotations::Small => bonds::<D, Small>(scene, &stencil, &grid, breaking.as_ref()),
-            Rotations::Finite => bonds::<D, Finite>(scene, &stencil, &grid, breaking.as_ref()),
+            Rotations::Small => bonds::<D, Small>(scene, &stencil, &grid, breaking.as_ref(), isa),
+            Rotations::Finite => bonds::<D, Finite>(scene, &stencil, &grid, breaking.as_ref(), isa),
         };
         let mut model = Self {
             inertia: Inertia::Uniform(scene.material.density),
@@ -64,6 +72,7 @@ impl<const D: usize> Model<D> {
             breaking,
             linear: scene.linear(),
             grid,
+            isa,
         };
         for (index, effect) in scene.effects.iter().enumerate() {
             let setting = Setting::of(scene, &model.grid);
@@ -156,6 +165,7 @@ fn bonds<const D: usize, L: Law>(
     stencil: &Stencil<D>,
     grid: &Grid<D>,
     breaking: Option<&RunningNotches>,
+    isa: Isa,
 ) -> Vec<Box<dyn Force<D>>> {
     let family = family(stencil, scene.modulus(), scene.spacing);
     let connectivity = Connectivity::of(scene);
@@ -165,13 +175,13 @@ fn bonds<const D: usize, L: Law>(
         |node| breaking.is_none_or(|breaking| breaking.breakable().first_word(grid.number(node)).is_none());
     let neutral = |node| lasts(node) && factors.as_ref().is_none_or(|factors| factors.neutral(node));
     let mut forces: Vec<Box<dyn Force<D>>> = vec![match scene.operator {
-        Operator::Stencil => Box::new(LatticeStencil::<D, L>::new(grid, &family, neutral, &present)),
+        Operator::Stencil => Box::new(LatticeStencil::<D, L>::new(grid, &family, neutral, &present, isa)),
         Operator::Bonds => Box::new(BondList::<D, L>::new(grid, &family, neutral, &present, |_, _| 1.0)),
     }];
     if let Some(breakable) = breaking.map(RunningNotches::breakable) {
         forces.push(match scene.operator {
             Operator::Stencil => {
-                let masks = Masks::new(grid, &family, breakable, &present);
+                let masks = Masks::new(grid, &family, breakable, &present, isa);
                 Box::new(Breaking::<D, L, _>::new(grid, masks))
             }
             Operator::Bonds => {

@@ -3,6 +3,7 @@
 //! Driven nodes are held at their displacement of t = 0; what depends on the velocity does not act at rest. A free body under balanced loads keeps its mean displacement.
 
 use crate::breaking::Broken;
+use crate::field::{Field, Window};
 use crate::forces::{Class, Now};
 use crate::model::Model;
 use thiserror::Error;
@@ -11,7 +12,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rest {
     /// u in m, a field of the model's grid.
-    pub displacement: Vec<f64>,
+    pub displacement: Field,
     pub iterations: usize,
     /// ‖F‖ left over ‖F‖ at the start.
     pub residual: f64,
@@ -36,11 +37,11 @@ pub fn rest<const D: usize>(model: &Model<D>, tolerance: f64, most: usize) -> Re
     let mut displacement = model.grid.field();
     let mut driven = model.grid.field();
     for constraint in &model.constraints {
-        constraint.hold(0.0, &displacement, &mut driven);
+        constraint.hold(0.0, Window::from(&displacement), &mut driven, 0);
     }
     let held: Vec<usize> =
         model.constraints.iter().flat_map(|constraint| constraint.places()).copied().collect();
-    displacement.iter_mut().zip(&driven).for_each(|(u, driven)| *u += driven);
+    displacement.iter_mut().zip(driven.iter()).for_each(|(u, driven)| *u += driven);
     model.fill_ghosts(&mut displacement);
 
     let mut residual = model.grid.field();
@@ -62,13 +63,15 @@ pub fn rest<const D: usize>(model: &Model<D>, tolerance: f64, most: usize) -> Re
         held.iter().for_each(|&place| image[place] = 0.0);
         // The image is −K times the direction.
         let step = -left / dot(&direction, &image);
-        for ((u, r), (p, a)) in displacement.iter_mut().zip(&mut residual).zip(direction.iter().zip(&image)) {
+        for ((u, r), (p, a)) in
+            displacement.iter_mut().zip(residual.iter_mut()).zip(direction.iter().zip(image.iter()))
+        {
             *u += step * p;
             *r += step * a;
         }
         let next = dot(&residual, &residual);
         let turn = next / left;
-        direction.iter_mut().zip(&residual).for_each(|(p, r)| *p = r + turn * *p);
+        direction.iter_mut().zip(residual.iter()).for_each(|(p, r)| *p = r + turn * *p);
         left = next;
     }
     Err(NoRest::NotConverged { iterations: most, residual: relative(left, start) })
@@ -79,7 +82,13 @@ fn relative(left: f64, start: f64) -> f64 {
 }
 
 fn still(displacement: &[f64]) -> Now<'_> {
-    Now { displacement, increment: &[], time: 0.0, time_step: f64::NAN, broken: Broken::none() }
+    Now {
+        displacement: displacement.into(),
+        increment: Window::NONE,
+        time: 0.0,
+        time_step: f64::NAN,
+        broken: Broken::none(),
+    }
 }
 
 /// In the order of the field, whatever the threads do.

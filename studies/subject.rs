@@ -10,6 +10,7 @@ use pd_verify::dispersion::joint::{self, Chain};
 use pd_verify::dispersion::plane::PlaneDispersion;
 use pd_verify::dispersion::timestep::{self, TimeStep};
 use pd_verify::dispersion::{Branch, Wave, continuum, finite_differences, leapfrog};
+use pd_verify::field::Window;
 use pd_verify::forces::{Class, Now};
 use pd_verify::kernel::Kernel;
 use pd_verify::lattice::{Lattice, Stencil, Unusable};
@@ -187,8 +188,8 @@ fn bond_force<const D: usize>(scene: &Scene<D>) -> Result<Vec<[f64; D]>, String>
     }
     model.fill_ghosts(&mut displacement);
     let now = Now {
-        displacement: &displacement,
-        increment: &[],
+        displacement: Window::from(&displacement),
+        increment: Window::NONE,
         time: 0.0,
         time_step: f64::NAN,
         broken: Broken::none(),

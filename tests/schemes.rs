@@ -16,6 +16,7 @@ use bodies::{Sums, UNIT, constant, effect, model, places, rough, scene};
 use pd_verify::breaking::Broken;
 use pd_verify::constraints::Edge::{Free, MirrorEven, MirrorOdd, Periodic};
 use pd_verify::constraints::Edges;
+use pd_verify::field::Window;
 use pd_verify::forces::{BodyForce, Damper, Now, Traction};
 use pd_verify::march::March;
 use pd_verify::model::Model;
@@ -41,8 +42,14 @@ fn leapfrog<const D: usize>(march: &mut March<'_, D>, steps: u64) -> Motion {
 fn kick<const D: usize>(scene: &Scene<D>, model: &Model<D>, u: &mut [f64], step: usize, dt: f64) -> Vec<f64> {
     model.fill_ghosts(u);
     let mut force = model.grid.field();
-    let now =
-        Now { displacement: u, increment: u, time: step as f64 * dt, time_step: dt, broken: Broken::none() };
+    let state = Window::from(&*u);
+    let now = Now {
+        displacement: state,
+        increment: state,
+        time: step as f64 * dt,
+        time_step: dt,
+        broken: Broken::none(),
+    };
     model.force(&now, &mut force);
     force.iter().map(|f| dt * dt / scene.material.density * f).collect()
 }

@@ -8,6 +8,7 @@ use crate::grid::Grid;
 use crate::scene::{Side, Wrong};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// What lies beyond one edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -38,6 +39,15 @@ impl Edge {
     /// The same in messages, with its other name.
     pub fn described(self) -> &'static str {
         if self == Self::MirrorOdd { "mirror_odd (a roller)" } else { self.name() }
+    }
+
+    /// Of a component beyond an edge across an axis.
+    fn sign(self, component: usize, axis: usize) -> f64 {
+        match self {
+            Self::MirrorOdd if component == axis => -1.0,
+            Self::MirrorEven if component != axis => -1.0,
+            _ => 1.0,
+        }
     }
 }
 
@@ -114,50 +124,97 @@ impl<const D: usize> Edges<D> {
         if !self.any() {
             return;
         }
-        for axis in 0..D {
-            for (end, &edge) in self.0[axis].iter().enumerate().filter(|(_, edge)| **edge != Edge::Free) {
+        if D > 1 {
+            self.fill_beside(grid, &mut field[grid.body()]);
+        }
+        for ghost in self.ghosts(grid) {
+            let (from, to) = (ghost.sources(), ghost.places());
+            let source: Vec<f64> = field[from].to_vec();
+            ghost.fill(&source, &mut field[to]);
+        }
+    }
+
+    /// Fills the ghosts beyond left and right in whole rows of a plate.
+    pub fn fill_beside(&self, grid: &Grid<D>, rows: &mut [f64]) {
+        let first = grid.place([0; D]) % grid.row();
+        for row in rows.chunks_exact_mut(grid.row()) {
+            for (end, &edge) in self.0[0].iter().enumerate().filter(|(_, edge)| **edge != Edge::Free) {
                 for depth in 0..grid.halo as isize {
-                    let last = grid.nodes[axis] as isize - 1;
-                    let (ghost, mirrored, repeated) = match end {
-                        0 => (-1 - depth, depth, last - depth),
-                        _ => (last + 1 + depth, last - depth, depth),
-                    };
-                    let source = if edge == Edge::Periodic { repeated } else { mirrored };
-                    copy(grid, field, axis, source, ghost, edge);
+                    let (ghost, source) = repeated(edge, end, depth, grid.nodes[0] as isize);
+                    for component in 0..D {
+                        let at =
+                            |column: isize| (first + component * grid.stride()).wrapping_add_signed(column);
+                        row[at(ghost)] = edge.sign(component, 0) * row[at(source)];
+                    }
                 }
             }
         }
     }
+
+    /// Whether the body goes on beyond its last piece of work at its first.
+    pub fn repeats_pieces(&self) -> bool {
+        self.0[D - 1][0] == Edge::Periodic
+    }
+
+    /// The ghosts beyond the ends of the last axis: rows of a plate, nodes of a bar.
+    pub fn ghosts(&self, grid: &Grid<D>) -> Vec<Ghost<D>> {
+        let axis = D - 1;
+        let mut ghosts = Vec::new();
+        for (end, &edge) in self.0[axis].iter().enumerate().filter(|(_, edge)| **edge != Edge::Free) {
+            for depth in 0..grid.halo as isize {
+                let (ghost, source) = repeated(edge, end, depth, grid.nodes[axis] as isize);
+                let at = |line: isize| {
+                    let mut node = [0; D];
+                    node[axis] = line;
+                    let place = grid.place(node);
+                    if D == 1 { place } else { place - place % grid.row() }
+                };
+                let signs = std::array::from_fn(|component| edge.sign(component, axis));
+                let len = if D == 1 { 1 } else { grid.stride() };
+                ghosts.push(Ghost { source: at(source), place: at(ghost), len, signs });
+            }
+        }
+        ghosts
+    }
 }
 
-/// Copies a line of nodes (a column, or a row with its halo) to a ghost line, with the signs of the edge.
-fn copy<const D: usize>(
-    grid: &Grid<D>,
-    field: &mut [f64],
-    axis: usize,
-    source: isize,
-    ghost: isize,
-    edge: Edge,
-) {
-    let at = |line: isize, along: isize| {
-        let mut node = [along; D];
-        node[axis] = line;
-        grid.place(node)
+/// A ghost beyond an end of an axis with so many nodes, and the node that it repeats.
+fn repeated(edge: Edge, end: usize, depth: isize, nodes: isize) -> (isize, isize) {
+    let last = nodes - 1;
+    let (ghost, mirrored, repeated) = match end {
+        0 => (-1 - depth, depth, last - depth),
+        _ => (last + 1 + depth, last - depth, depth),
     };
-    let along = match (D, axis) {
-        (1, _) => 0..1,
-        (_, 0) => 0..grid.rows() as isize,
-        _ => -(grid.halo as isize)..(grid.nodes[0] + grid.halo) as isize,
-    };
-    for along in along {
-        for component in 0..D {
-            let sign = match edge {
-                Edge::MirrorOdd if component == axis => -1.0,
-                Edge::MirrorEven if component != axis => -1.0,
-                _ => 1.0,
-            };
-            let shift = component * grid.stride();
-            field[at(ghost, along) + shift] = sign * field[at(source, along) + shift];
+    (ghost, if edge == Edge::Periodic { repeated } else { mirrored })
+}
+
+/// A row of ghosts of a plate, or a ghost of a bar, by its places in a field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ghost<const D: usize> {
+    source: usize,
+    place: usize,
+    /// Of one component.
+    len: usize,
+    signs: [f64; D],
+}
+
+impl<const D: usize> Ghost<D> {
+    /// Where it lies.
+    pub fn places(&self) -> Range<usize> {
+        self.place..self.place + D * self.len
+    }
+
+    /// What it repeats.
+    pub fn sources(&self) -> Range<usize> {
+        self.source..self.source + D * self.len
+    }
+
+    /// The ghosts of `source`.
+    pub fn fill(&self, source: &[f64], ghosts: &mut [f64]) {
+        for (component, sign) in self.signs.iter().enumerate() {
+            let part = component * self.len..(component + 1) * self.len;
+            let pairs = ghosts[part.clone()].iter_mut().zip(&source[part]);
+            pairs.for_each(|(ghost, source)| *ghost = sign * source);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Nodes that move as prescribed: a displacement times a history.
 
 use super::Constraint;
+use crate::field::Window;
 use crate::scene::{Acts, Axis, Effect, History, HistoryAsked, Initial, Region, Setting, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -33,9 +34,8 @@ impl<const D: usize> Effect<D> for PrescribedMotion {
             setting.edges.may_drive(side, axis)?;
         }
         let component = axis * setting.grid.stride();
-        let places: Vec<usize> = nodes.iter().map(|node| setting.grid.place(*node) + component).collect();
-        let displacements = vec![self.displacement_m; places.len()];
-        Ok(Acts::Constraint(Box::new(Driven { places, displacements, history })))
+        let places = nodes.iter().map(|node| (setting.grid.place(*node) + component, self.displacement_m));
+        Ok(Acts::Constraint(Box::new(Driven::new(places.collect(), history))))
     }
 }
 
@@ -60,17 +60,17 @@ impl<const D: usize> Effect<D> for HeldFrame<D> {
             (0..D).map(from_edge).min().unwrap_or(0)
         };
         let held: Vec<_> = grid.each().filter(|node| depth(*node) < self.layers as isize).collect();
-        let (mut places, mut displacements) = (Vec::new(), Vec::new());
+        let mut driven = Vec::new();
         for component in 0..D {
             let of = |node| {
                 let mine = self.fields.iter().filter(|field| field.component == component);
                 mine.map(|field| field.at(grid.position(node))).sum::<f64>()
             };
-            places.extend(held.iter().map(|node| grid.place(*node) + component * grid.stride()));
-            displacements.extend(held.iter().map(|node| of(*node)));
+            let place = |node: [isize; D]| grid.place(node) + component * grid.stride();
+            driven.extend(held.iter().map(|node| (place(*node), of(*node))));
         }
         let history = History::Step { start: 0.0 };
-        Ok(Acts::Constraint(Box::new(Driven { places, displacements, history })))
+        Ok(Acts::Constraint(Box::new(Driven::new(driven, history))))
     }
 }
 
@@ -82,6 +82,15 @@ struct Driven {
     history: History,
 }
 
+impl Driven {
+    /// Places and their displacements in any order.
+    fn new(mut driven: Vec<(usize, f64)>, history: History) -> Self {
+        driven.sort_by_key(|(place, _)| *place);
+        let (places, displacements) = driven.into_iter().unzip();
+        Self { places, displacements, history }
+    }
+}
+
 impl<const D: usize> Constraint<D> for Driven {
     fn name(&self) -> String {
         "prescribed motion".into()
@@ -91,10 +100,15 @@ impl<const D: usize> Constraint<D> for Driven {
         &self.places
     }
 
-    fn hold(&self, next: f64, displacement: &[f64], increment: &mut [f64]) {
+    fn hold(&self, next: f64, displacement: Window<'_>, increment: &mut [f64], start: usize) {
+        let at = |place: usize| self.places.partition_point(|&other| other < place);
+        let mine = at(start)..at(start + increment.len());
+        if mine.is_empty() {
+            return;
+        }
         let factor = self.history.at(next);
-        for (&place, target) in self.places.iter().zip(&self.displacements) {
-            increment[place] = target * factor - displacement[place];
+        for (&place, target) in self.places[mine.clone()].iter().zip(&self.displacements[mine]) {
+            increment[place - start] = target * factor - displacement[place];
         }
     }
 }

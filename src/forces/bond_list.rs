@@ -4,6 +4,7 @@
 //! a sum over its own list in a fixed order, and what one end feels is exactly minus what the other does.
 
 use super::{Class, FamilyBond, Force, Law, Now, Present, apart, reach_of};
+use crate::field::Window;
 use crate::grid::Grid;
 
 /// The operator, over the nodes it was given.
@@ -91,12 +92,12 @@ impl<const D: usize, L: Law> BondList<D, L> {
     /// Weight, direction and η of each bond of a node, seen from it.
     fn bonds<'a>(
         &'a self,
-        u: &'a [f64],
+        u: Window<'a>,
         node: &'a Node,
     ) -> impl Iterator<Item = (f64, super::Direction<D>, [f64; D])> + 'a {
-        self.ends[node.first..node.last]
-            .iter()
-            .map(|end| (end.weight, self.direction(end), apart(u, node.place, end.far as usize, self.stride)))
+        self.ends[node.first..node.last].iter().map(move |end| {
+            (end.weight, self.direction(end), apart(u, node.place, end.far as usize, self.stride))
+        })
     }
 }
 
@@ -127,6 +128,10 @@ impl<const D: usize, L: Law> Force<D> for BondList<D, L> {
                 sum[node.place - start + axis * self.stride] += total;
             }
         }
+    }
+
+    fn acts_on(&self, piece: usize) -> bool {
+        !self.nodes[piece].is_empty()
     }
 
     fn energy(&self, now: &Now<'_>, piece: usize) -> Option<f64> {

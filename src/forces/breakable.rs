@@ -7,7 +7,9 @@
 use super::stencil::mask;
 use super::{BondList, Class, Direction, FamilyBond, Force, Law, Now, Present, apart, reach_of};
 use crate::breaking::{Breakable, Broken};
+use crate::field::Window;
 use crate::grid::Grid;
+use crate::simd::{Isa, Kernel, Lanes};
 use std::marker::PhantomData;
 
 /// A node whose bonds may break.
@@ -43,6 +45,10 @@ pub trait Store<const D: usize>: Send + Sync {
     /// The bonds of a node, by its index in its piece, in a fixed order.
     fn bonds(&self, piece: usize, index: usize) -> impl Iterator<Item = Seen<D>>;
 
+    /// The force on a node of the bonds whose bits in `broken` are not set, to the last bit as the operator for bonds that
+    /// last would sum them; `of` is the piece and the node's index in it.
+    fn force<L: Law>(&self, u: Window<'_>, broken: &Broken, of: [usize; 2], stride: usize) -> [f64; D];
+
     fn bytes(&self) -> usize;
 }
 
@@ -72,7 +78,7 @@ impl<const D: usize, L: Law, S: Store<D>> Breaking<D, L, S> {
         self.store.bonds(piece, index).filter(move |seen| acts(seen.bit))
     }
 
-    fn eta(&self, u: &[f64], node: Node, seen: &Seen<D>) -> [f64; D] {
+    fn eta(&self, u: Window<'_>, node: Node, seen: &Seen<D>) -> [f64; D] {
         apart(u, node.place, seen.far, self.stride)
     }
 }
@@ -98,17 +104,15 @@ impl<const D: usize, L: Law, S: Store<D>> Force<D> for Breaking<D, L, S> {
     fn add(&self, now: &Now<'_>, piece: usize, sum: &mut [f64]) {
         let start = self.start + piece * self.piece;
         for (index, node) in self.store.nodes(piece) {
-            let mut total = [0.0; D];
-            for seen in self.bonds(piece, index, |bit| !is_set(now.broken, node, bit)) {
-                let pull = L::pull(&seen.direction, self.eta(now.displacement, node, &seen));
-                for axis in 0..D {
-                    total[axis] += seen.weight * pull[axis];
-                }
-            }
+            let total = self.store.force::<L>(now.displacement, now.broken, [piece, index], self.stride);
             for (axis, total) in total.iter().enumerate() {
                 sum[node.place - start + axis * self.stride] += total;
             }
         }
+    }
+
+    fn acts_on(&self, piece: usize) -> bool {
+        self.store.nodes(piece).next().is_some()
     }
 
     fn energy(&self, now: &Now<'_>, piece: usize) -> Option<f64> {
@@ -148,6 +152,7 @@ pub struct Masks<const D: usize> {
     nodes: Vec<Vec<Node>>,
     /// Words of the bonds that exist at first, in the order of those in [`Broken`].
     words: Vec<u64>,
+    isa: Isa,
 }
 
 impl<const D: usize> Masks<D> {
@@ -156,6 +161,7 @@ impl<const D: usize> Masks<D> {
         family: &[FamilyBond<D>],
         breakable: &Breakable,
         present: &impl Present<D>,
+        isa: Isa,
     ) -> Self {
         let mut nodes: Vec<Vec<Node>> = vec![Vec::new(); grid.pieces()];
         let mut words = Vec::new();
@@ -166,7 +172,7 @@ impl<const D: usize> Masks<D> {
             words.extend(mask(family, node, present));
         }
         let bonds = family.iter().map(|bond| (*bond, grid.shift(bond.offset))).collect();
-        Self { bonds, nodes, words }
+        Self { bonds, nodes, words, isa }
     }
 
     /// What it keeps of so many nodes.
@@ -200,9 +206,58 @@ impl<const D: usize> Store<D> for Masks<D> {
         both.filter(move |seen| self.words[node.word + seen.bit / 64] >> (seen.bit % 64) & 1 == 1)
     }
 
+    fn force<L: Law>(
+        &self,
+        u: Window<'_>,
+        broken: &Broken,
+        [piece, index]: [usize; 2],
+        stride: usize,
+    ) -> [f64; D] {
+        let node = self.nodes[piece][index];
+        self.isa.run(OneNode::<D, L> { masks: self, node, u, broken, stride, law: PhantomData })
+    }
+
     fn bytes(&self) -> usize {
         let nodes = self.nodes.iter().map(Vec::len).sum();
         Self::bytes_for(self.bonds.len(), nodes)
+    }
+}
+
+/// The bonds of one node pair by pair, as [`super::stencil`] sums those of many side by side.
+struct OneNode<'a, const D: usize, L> {
+    masks: &'a Masks<D>,
+    node: Node,
+    u: Window<'a>,
+    broken: &'a Broken,
+    stride: usize,
+    law: PhantomData<L>,
+}
+
+impl<const D: usize, L: Law> Kernel for OneNode<'_, D, L> {
+    type Output = [f64; D];
+
+    #[inline(always)]
+    fn run<V: Lanes>(self) -> [f64; D] {
+        let Self { masks, node, u, stride, .. } = self;
+        let mut force = [V::splat(0.0); D];
+        for (index, (bond, shift)) in masks.bonds.iter().enumerate() {
+            let eta = |bit: usize, shift: isize| -> [V; D] {
+                let kept = masks.words[node.word + bit / 64] >> (bit % 64) & 1 == 1;
+                let acts = kept && !is_set(self.broken, node, bit);
+                let eta = apart(u, node.place, node.place.wrapping_add_signed(shift), stride);
+                if acts { eta.map(V::splat) } else { [V::splat(0.0); D] }
+            };
+            let pull = L::pair(&bond.direction, eta(2 * index, *shift), eta(2 * index + 1, -shift));
+            for axis in 0..D {
+                force[axis] = V::splat(bond.weight).mul_add(pull[axis], force[axis]);
+            }
+        }
+        force.map(|component| {
+            let mut lanes = [0.0; 8];
+            // SAFETY: at most eight lanes.
+            unsafe { component.store(&mut lanes, 0) };
+            lanes[0]
+        })
     }
 }
 
@@ -254,6 +309,24 @@ impl<const D: usize, L: Law> Store<D> for Listed<D, L> {
             let (bit, far) = (2 * bond + usize::from(!end.owner), end.far as usize);
             Seen { bit, weight: end.weight, direction, far }
         })
+    }
+
+    fn force<O: Law>(
+        &self,
+        u: Window<'_>,
+        broken: &Broken,
+        [piece, index]: [usize; 2],
+        stride: usize,
+    ) -> [f64; D] {
+        let node = Node { place: self.list.nodes[piece][index].place, word: self.words[piece][index] };
+        let mut total = [0.0; D];
+        for seen in self.bonds(piece, index).filter(|seen| !is_set(broken, node, seen.bit)) {
+            let pull = O::pull(&seen.direction, apart(u, node.place, seen.far, stride));
+            for axis in 0..D {
+                total[axis] += seen.weight * pull[axis];
+            }
+        }
+        total
     }
 
     fn bytes(&self) -> usize {

@@ -5,6 +5,8 @@
 //! any rotation: e y/|y|, y = ξ + η, e = |y| − |ξ|, and stores ½e² (Silling & Askari 2005, Comput. Struct. 83, 1526:
 //! f = c s y/|y|, s = e/|ξ|). The elongation is computed as η·(2ξ + η)/(|y| + |ξ|), which does not cancel.
 
+use crate::simd::Lanes;
+
 /// A bond as geometry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Direction<const D: usize> {
@@ -42,12 +44,13 @@ pub trait Law: Copy + Send + Sync + 'static {
     /// Whether the force is linear in the displacement.
     const LINEAR: bool;
 
-    /// Force per unit weight on the near end, in m, when the far end moves by η against it.
-    fn pull<const D: usize>(bond: &Direction<D>, eta: [f64; D]) -> [f64; D];
+    /// Force per unit weight on the near end, in m, when the far end moves by η against it; of one bond or of some side by
+    /// side.
+    fn pull<const D: usize, V: Lanes>(bond: &Direction<D>, eta: [V; D]) -> [V; D];
 
     /// The same from both bonds of a pair ±ξ.
     #[inline(always)]
-    fn pair<const D: usize>(bond: &Direction<D>, forward: [f64; D], backward: [f64; D]) -> [f64; D] {
+    fn pair<const D: usize, V: Lanes>(bond: &Direction<D>, forward: [V; D], backward: [V; D]) -> [V; D] {
         let (one, other) = (Self::pull(bond, forward), Self::pull(&bond.reversed(), backward));
         std::array::from_fn(|axis| one[axis] + other[axis])
     }
@@ -57,10 +60,10 @@ pub trait Law: Copy + Send + Sync + 'static {
 }
 
 #[inline(always)]
-fn dot<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
+fn dot<const D: usize, V: Lanes>(a: [V; D], b: [V; D]) -> V {
     let mut sum = a[0] * b[0];
     for axis in 1..D {
-        sum += a[axis] * b[axis];
+        sum = sum + a[axis] * b[axis];
     }
     sum
 }
@@ -74,13 +77,13 @@ impl Law for Small {
     const LINEAR: bool = true;
 
     #[inline(always)]
-    fn pull<const D: usize>(bond: &Direction<D>, eta: [f64; D]) -> [f64; D] {
-        let along = dot(bond.unit, eta);
-        bond.unit.map(|n| n * along)
+    fn pull<const D: usize, V: Lanes>(bond: &Direction<D>, eta: [V; D]) -> [V; D] {
+        let along = dot(bond.unit.map(V::splat), eta);
+        bond.unit.map(|n| V::splat(n) * along)
     }
 
     #[inline(always)]
-    fn pair<const D: usize>(bond: &Direction<D>, forward: [f64; D], backward: [f64; D]) -> [f64; D] {
+    fn pair<const D: usize, V: Lanes>(bond: &Direction<D>, forward: [V; D], backward: [V; D]) -> [V; D] {
         Self::pull(bond, std::array::from_fn(|axis| forward[axis] + backward[axis]))
     }
 
@@ -98,11 +101,12 @@ pub struct Finite;
 impl Finite {
     /// y and its length, and the elongation.
     #[inline(always)]
-    fn stretched<const D: usize>(bond: &Direction<D>, eta: [f64; D]) -> ([f64; D], f64, f64) {
-        let y: [f64; D] = std::array::from_fn(|axis| bond.xi[axis] + eta[axis]);
+    fn stretched<const D: usize, V: Lanes>(bond: &Direction<D>, eta: [V; D]) -> ([V; D], V, V) {
+        let xi = bond.xi.map(V::splat);
+        let y: [V; D] = std::array::from_fn(|axis| xi[axis] + eta[axis]);
         let length = dot(y, y).sqrt();
-        let sum = std::array::from_fn(|axis| bond.xi[axis] + y[axis]);
-        (y, length, dot(eta, sum) / (length + bond.length))
+        let sum = std::array::from_fn(|axis| xi[axis] + y[axis]);
+        (y, length, dot(eta, sum) / (length + V::splat(bond.length)))
     }
 }
 
@@ -111,7 +115,7 @@ impl Law for Finite {
     const LINEAR: bool = false;
 
     #[inline(always)]
-    fn pull<const D: usize>(bond: &Direction<D>, eta: [f64; D]) -> [f64; D] {
+    fn pull<const D: usize, V: Lanes>(bond: &Direction<D>, eta: [V; D]) -> [V; D] {
         let (y, length, elongation) = Self::stretched(bond, eta);
         y.map(|y| elongation * (y / length))
     }

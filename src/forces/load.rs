@@ -186,6 +186,10 @@ impl<const D: usize> Force<D> for Load {
         }
     }
 
+    fn acts_on(&self, piece: usize) -> bool {
+        !self.places[piece].is_empty()
+    }
+
     fn loaded(&self, grid: &Grid<D>) -> Option<Vec<usize>> {
         let start = |piece: usize| grid.body().start + piece * grid.piece();
         let of_piece = |(piece, places): (usize, &Vec<usize>)| -> Vec<usize> {

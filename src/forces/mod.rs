@@ -9,6 +9,7 @@ mod damping;
 mod face_traction;
 mod law;
 mod load;
+pub mod sink;
 mod stencil;
 pub mod surface;
 
@@ -21,16 +22,18 @@ pub use load::{BodyForce, ForceField, Load, Traction};
 pub use stencil::LatticeStencil;
 
 use crate::breaking::Broken;
+use crate::field::Window;
 use crate::grid::Grid;
 use crate::lattice::Stencil;
+use sink::Step;
 
 /// The state at which forces are evaluated.
 #[derive(Debug, Clone, Copy)]
 pub struct Now<'a> {
-    /// u at time n in m; ghosts filled.
-    pub displacement: &'a [f64],
-    /// u(n) − u(n−1) in m: Δt times the velocity half a step ago.
-    pub increment: &'a [f64],
+    /// u at time n in m; ghosts filled. At least the piece and what lies within the reach of a force is seen.
+    pub displacement: Window<'a>,
+    /// u(n) − u(n−1) in m: Δt times the velocity half a step ago. At least the piece is seen.
+    pub increment: Window<'a>,
     /// t(n) in s.
     pub time: f64,
     /// Δt in s.
@@ -64,6 +67,16 @@ pub trait Force<const D: usize>: Send + Sync {
 
     /// Adds the force density in N/m³ on the nodes of a piece; `sum` is that piece of the force field.
     fn add(&self, now: &Now<'_>, piece: usize, sum: &mut [f64]);
+
+    /// Whether it acts on any node of a piece.
+    fn acts_on(&self, _piece: usize) -> bool {
+        true
+    }
+
+    /// Moves the nodes of a piece on which nothing else acts, with no sum between; `false` where it does not know how.
+    fn step(&self, _now: &Now<'_>, _piece: usize, _step: &mut Step<'_>) -> bool {
+        false
+    }
 
     /// Energy per volume of a node's cell, summed over the nodes of a piece, in J/m³; `None` without a potential.
     fn energy(&self, _now: &Now<'_>, _piece: usize) -> Option<f64> {
@@ -121,7 +134,7 @@ impl<const D: usize, F: Fn([isize; D], [i32; D]) -> bool> Present<D> for F {}
 
 /// η of the bond from one place to another, component by component.
 #[inline(always)]
-fn apart<const D: usize>(displacement: &[f64], from: usize, to: usize, stride: usize) -> [f64; D] {
+fn apart<const D: usize>(displacement: Window<'_>, from: usize, to: usize, stride: usize) -> [f64; D] {
     std::array::from_fn(|axis| displacement[to + axis * stride] - displacement[from + axis * stride])
 }
 

@@ -8,7 +8,7 @@ use crate::connectivity::Connectivity;
 use crate::constraints::Edge;
 use crate::forces::surface::Factors;
 use crate::forces::{BondList, Finite, LatticeStencil, Listed, Masks, Small, family};
-use crate::grid::Grid;
+use crate::grid::{Grid, Run};
 use crate::lattice::Stencil;
 use crate::model::surface_factors;
 use crate::scene::{Operator, Rotations, Scene, Watch};
@@ -30,9 +30,11 @@ pub struct Counts {
 struct Served {
     nodes: usize,
     ends: u64,
-    /// Runs of nodes that have all their bonds, and how many such nodes.
+    /// Runs of nodes that have all their bonds.
     runs: usize,
-    whole: usize,
+    /// Runs of nodes that lack some, and the nodes in the blocks of these runs.
+    masked_runs: usize,
+    padded: usize,
     band_nodes: usize,
     band_ends: u64,
     /// Nodes whose bonds may break.
@@ -76,8 +78,8 @@ fn operator_bytes<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>, served
     let own = match scene.operator {
         Operator::Bonds => list(served.nodes, served.ends),
         Operator::Stencil => {
-            let partial = served.nodes - served.whole;
-            LatticeStencil::<D, Small>::bytes_for(stencil.bonds.len(), served.runs, partial)
+            let Served { runs, masked_runs, padded, .. } = *served;
+            LatticeStencil::<D, Small>::bytes_for(stencil.bonds.len(), runs, masked_runs, padded)
         }
     };
     let listed = match scene.rotations {
@@ -100,7 +102,7 @@ fn by_nodes<const D: usize>(
     breaking: Option<&RunningNotches>,
 ) -> Served {
     let mut served = Served::default();
-    let mut whole = vec![false; grid.cells()];
+    let (mut whole, mut masked) = (vec![false; grid.cells()], vec![false; grid.cells()]);
     let reach = stencil.reach();
     for node in grid.each() {
         let both = stencil.bonds.iter().flat_map(|bond| [bond.offset, bond.offset.map(|n| -n)]);
@@ -116,15 +118,17 @@ fn by_nodes<const D: usize>(
         } else if factors.is_none_or(|factors| factors.neutral(node)) {
             served.nodes += 1;
             served.ends += ends as u64;
-            whole[grid.number(node)] = ends == 2 * stencil.bonds.len();
+            let all = ends == 2 * stencil.bonds.len();
+            (whole[grid.number(node)], masked[grid.number(node)]) = (all, !all);
         } else {
             served.band_nodes += 1;
             served.band_ends += ends as u64;
         }
     }
-    let runs = grid.runs(|node| whole[grid.number(node)]);
-    served.runs = runs.iter().map(Vec::len).sum();
-    served.whole = runs.iter().flatten().map(|run| run.len).sum();
+    served.runs = grid.runs(|node| whole[grid.number(node)]).iter().map(Vec::len).sum();
+    let runs = grid.runs(|node| masked[grid.number(node)]);
+    served.masked_runs = runs.iter().map(Vec::len).sum();
+    served.padded = runs.into_iter().flatten().map(LatticeStencil::<D, Small>::padded).sum();
     served
 }
 
@@ -140,14 +144,33 @@ fn by_sizes<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>, grid: &Grid<
         (0..D).map(along).product()
     };
     let both = stencil.bonds.iter().flat_map(|bond| [bond.offset, bond.offset.map(|n| -n)]);
-    let whole: [usize; D] = std::array::from_fn(|axis| {
-        let free = scene.edges.0[axis].iter().filter(|edge| **edge == Edge::Free).count();
-        grid.nodes[axis].saturating_sub(free * grid.halo)
-    });
-    let count: usize = whole.iter().product();
+    let free = |axis: usize, end: usize| if scene.edges.0[axis][end] == Edge::Free { grid.halo } else { 0 };
+    let whole: [usize; D] =
+        std::array::from_fn(|axis| grid.nodes[axis].saturating_sub(free(axis, 0) + free(axis, 1)));
+    let rows = whole.get(1).copied().unwrap_or(1);
+    let (below, columns) = (free(0, 0), grid.nodes[0]);
+    let masked = |from: usize, until: usize| Run { start: from, len: until - from };
+    // Beside the whole nodes of a row, and in rows that have none.
+    let beside = match whole[0] {
+        0 => vec![masked(0, columns)],
+        count => vec![masked(0, below), masked(below + count, columns)],
+    };
+    let without = if whole[0] == 0 { grid.rows() } else { grid.rows() - rows };
+    let counted = |runs: Vec<Run>| {
+        let runs: Vec<Run> = runs.into_iter().filter(|run| run.len > 0).collect();
+        (runs.len(), runs.into_iter().map(LatticeStencil::<D, Small>::padded).sum::<usize>())
+    };
+    let (sides, rest) = (counted(beside), counted(vec![masked(0, columns)]));
+    let with = grid.rows() - without;
     // A plate has a run in each row, a bar one in each piece that holds whole nodes.
-    let first = grid.halo * (1 + usize::from(scene.edges.0[0][0] == Edge::Free));
-    let pieces = || (first + count).div_ceil(grid.piece()) - first / grid.piece();
-    let runs = if count == 0 { 0 } else { whole.get(1).copied().unwrap_or_else(pieces) };
-    Served { nodes: grid.count(), ends: both.map(ends).sum(), runs, whole: count, ..Served::default() }
+    let pieces = || (below + whole[0]).div_ceil(grid.piece()) - below / grid.piece();
+    let runs = if whole.contains(&0) { 0 } else { whole.get(1).copied().unwrap_or_else(pieces) };
+    Served {
+        nodes: grid.count(),
+        ends: both.map(ends).sum(),
+        runs,
+        masked_runs: with * sides.0 + without * rest.0,
+        padded: with * sides.1 + without * rest.1,
+        ..Served::default()
+    }
 }

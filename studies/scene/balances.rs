@@ -3,6 +3,7 @@
 use super::either::Either;
 use pd_verify::breaking::Broken;
 use pd_verify::constraints::Edge;
+use pd_verify::field::Window;
 use pd_verify::forces::{Class, Force, Now};
 use pd_verify::grid::Grid;
 use pd_verify::plan::Plan;
@@ -132,7 +133,8 @@ fn push<const D: usize>(loads: &[Box<dyn Force<D>>], grid: &Grid<D>, time: f64, 
         return total;
     }
     let still = grid.field();
-    let now = Now { displacement: &still, increment: &still, time, time_step, broken: Broken::none() };
+    let at_rest = Window::from(&still);
+    let now = Now { displacement: at_rest, increment: at_rest, time, time_step, broken: Broken::none() };
     let mut field = grid.field();
     for (piece, sum) in field[grid.body()].chunks_mut(grid.piece()).enumerate() {
         loads.iter().for_each(|load| load.add(&now, piece, sum));

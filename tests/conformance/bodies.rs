@@ -168,7 +168,7 @@ pub fn field<const D: usize>(model: &Model<D>, mut at: impl FnMut([f64; D]) -> [
         }
     }
     model.fill_ghosts(&mut field);
-    field
+    field.to_vec()
 }
 
 /// Displacements without pattern, each component below `size`.
@@ -179,6 +179,7 @@ pub fn rough<const D: usize>(model: &Model<D>, seed: u64, size: f64) -> Vec<f64>
 
 /// A state at rest.
 pub fn still(displacement: &[f64]) -> Now<'_> {
+    let displacement = displacement.into();
     Now { displacement, increment: displacement, time: 0.0, time_step: 1.0, broken: Broken::none() }
 }
 
@@ -239,7 +240,8 @@ pub struct Sums {
 impl Sums {
     pub fn of<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, displacement: &[f64]) -> Self {
         let family = 2 * Stencil::<D>::new(scene.lattice).expect("a usable lattice").bonds.len();
-        let mut sums = Self { pull: grid.field(), stiffness: grid.field(), energy: 0.0, family };
+        let mut sums =
+            Self { pull: grid.field().to_vec(), stiffness: grid.field().to_vec(), energy: 0.0, family };
         each_bond(scene, grid, |near, far, bond| {
             let (weight, eta) = (bond.weight.abs(), size(apart(grid, displacement, near, far)));
             for axis in 0..D {

@@ -46,7 +46,7 @@ pub fn gradient<const D: usize>(scene: &Scene<D>, model: &Model<D>) -> Checked {
     for trial in 0..5 {
         let mut way = match trial {
             0 => rough(model, 2, 1.0),
-            _ => grid.field(),
+            _ => grid.field().to_vec(),
         };
         if trial > 0 {
             way[at[[0, at.len() / 2, at.len() - 1, D * scene.nodes[0] - 1][trial - 1]]] = 1.0;

@@ -86,23 +86,22 @@ fn a_plan_knows_what_a_corrected_body_keeps() {
     }
 }
 
-/// By hand. A bar of 10 nodes, m = 2, free: 9 + 8 bonds; 3 fields of 14 numbers; a mask for each of the 4 nodes at the
-/// ends and one run between them. A plate of 6 × 5, m = √2, free: 5·5 + 6·4 along the axes, 2·5·4 across.
+/// By hand. A bar of 10 nodes, m = 2, free: 9 + 8 bonds; 3 fields of 32 numbers (two lines of nodes, one on each side); a run
+/// of nodes with all their bonds, one at each end of nodes without, whose words fill a line each. A plate of 6 × 5, m = √2, free: 5·5 + 6·4 along the axes, 2·5·4 across.
 #[test]
 fn costs_of_a_bar_and_a_plate_by_hand() {
     let bar = scene::<1>(constant(2.0, VolumeRule::Full, false), [10]);
     let plan = Plan::of(&bar).unwrap();
     assert_eq!((plan.nodes, plan.bonds), (10, 17));
-    // A run is a place and a length; a mask is a place, a list of one word and that word.
-    assert_eq!(plan.bytes_per_node, (3 * 14 * 8 + 16 + 4 * (8 + 24 + 8)) as f64 / 10.0);
+    // A run is a place, a length and where its words begin.
+    assert_eq!(plan.bytes_per_node, (3 * 32 * 8 + 3 * 24 + 2 * 8 * 8) as f64 / 10.0);
     let plate = scene::<2>(constant(1.5, VolumeRule::Full, false), [6, 5]);
     let plan = Plan::of(&plate).unwrap();
     assert_eq!((plan.nodes, plan.bonds), (30, 25 + 24 + 40));
-    let whole = 4 * 3;
-    assert_eq!(
-        (plan.bytes_per_node * 30.0).round() as usize,
-        3 * 8 * (2 * 8 * 7) + 3 * 16 + (30 - whole) * 40
-    );
+    // Three rows with a run of whole nodes and one at each side, two rows of nodes that lack bonds.
+    let fields = 3 * 8 * (2 * 24 * 7);
+    let (runs, lines) = (3 * 3 + 2, 3 * 2 + 2);
+    assert_eq!((plan.bytes_per_node * 30.0).round() as usize, fields + runs * 24 + lines * 64);
     let mirrored = Scene { edges: Edges([[Edge::MirrorOdd; 2]]), ..bar };
     assert_eq!(Plan::of(&mirrored).unwrap().bonds, 20);
 }

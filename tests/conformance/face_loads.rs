@@ -3,6 +3,7 @@
 use crate::bodies::{constant, effect, model, scene};
 use pd_verify::breaking::Broken;
 use pd_verify::constraints::PrescribedMotion;
+use pd_verify::field::Window;
 use pd_verify::forces::{FaceTraction, Now, Traction};
 use pd_verify::march::March;
 use pd_verify::model::Model;
@@ -32,9 +33,10 @@ fn faces(normal: f64, shear: f64) -> Arc<dyn Effect<2>> {
 /// The force of a body that has not moved, each node with its place in spacings.
 fn loads(scene: &Scene<2>, own: &Model<2>) -> Vec<([f64; 2], [f64; 2])> {
     let still = own.grid.field();
+    let at_rest = Window::from(&still);
     let mut field = own.grid.field();
     let now =
-        Now { displacement: &still, increment: &still, time: 0.0, time_step: 1e-7, broken: Broken::none() };
+        Now { displacement: at_rest, increment: at_rest, time: 0.0, time_step: 1e-7, broken: Broken::none() };
     own.force(&now, &mut field);
     let of = |node| {
         let place = own.grid.place(node);

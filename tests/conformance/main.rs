@@ -12,11 +12,13 @@ mod fields;
 mod holed;
 mod motion;
 mod notched;
+mod passes;
 mod patches;
 mod probes;
 mod refused;
 mod running;
 mod snapshots;
+mod vectors;
 mod wrong;
 
 use bodies::{cases, constant, force, model, places, scene};

@@ -43,7 +43,7 @@ pub fn spoilt<const D: usize>(scene: &Scene<D>, way: Way) -> Model<D> {
     let stencil = Stencil::<D>::new(scene.lattice).expect("a usable lattice");
     let half = family(&stencil, scene.modulus(), scene.spacing);
     let present = |node, offset| scene.edges.present(scene.nodes, node, offset);
-    let own = LatticeStencil::new(&model.grid, &half, |_| true, &present);
+    let own = LatticeStencil::new(&model.grid, &half, |_| true, &present, model.isa);
     let grid = model.grid.clone();
     model.add(Box::new(Wrong { way, grid, own, memory: Mutex::new(Vec::new()) }));
     model
@@ -63,14 +63,14 @@ impl<const D: usize> Force<D> for Wrong<D> {
         self.own.add(now, piece, &mut own);
         let largest = own.iter().fold(0.0, |largest: f64, f| largest.max(f.abs()));
         let stride = self.grid.stride();
+        let first = self.grid.place([0; D]) - self.grid.body().start;
+        let middle = first + self.grid.nodes[0] / 2;
         let component = |at: usize| (at / stride) % D;
         let mut memory = self.memory.lock().expect("no thread died");
         for (at, (sum, f)) in sum.iter_mut().zip(&own).enumerate() {
             *sum += match self.way {
                 Way::Scaled if D == 1 || component(at) == 1 => 1e-6 * f,
-                Way::OneSided
-                    if at % stride == stride / 2 && at / self.grid.row() == 2 % self.grid.rows() =>
-                {
+                Way::OneSided if at % stride == middle && at / self.grid.row() == 2 % self.grid.rows() => {
                     1e-6 * f
                 }
                 Way::Sideways if D == 2 && component(at) == 0 => 1e-6 * own[at + stride],

@@ -3,15 +3,34 @@
 //! Velocity Verlet and central differences are the same scheme written in other variables (tests/schemes.rs). Started
 //! with d = Δt v₀ − ½Δt² a₀ half a step before t = 0, it is second order from the first step on.
 
+//!
+//! Between two looks at a body several steps are made in one pass over memory ([`pass`], [`schedule`]); no bit depends on
+//! how many, nor on the number of threads.
+
+mod pass;
+mod schedule;
+mod shared;
+
 use crate::breaking::{Broken, RunningNotches};
+use crate::constraints::Ghost;
+use crate::field::{Field, Window};
 use crate::forces::Now;
 use crate::grid::Grid;
 use crate::ledger::Ledger;
-use crate::model::{Inertia, Model};
+use crate::model::Model;
 use crate::scene::{Initial, Scene};
+use pass::{Accelerate, Pass};
+use schedule::Schedule;
+use shared::Shared;
+
+/// Steps of a pass, at most: with more the fields of neighbouring pieces no longer stay in a core's cache.
+pub const STEPS_PER_PASS: usize = 4;
+
+/// Nodes for which it is worth waking another thread.
+const WORTH_A_THREAD: usize = 4096;
 
 /// The sum of initial fields, `scale` times, as a field of the grid.
-pub(crate) fn initial<const D: usize>(grid: &Grid<D>, fields: &[Initial<D>], scale: f64) -> Vec<f64> {
+pub(crate) fn initial<const D: usize>(grid: &Grid<D>, fields: &[Initial<D>], scale: f64) -> Field {
     let mut values = grid.field();
     for initial in fields {
         for node in grid.each() {
@@ -28,9 +47,15 @@ pub struct March<'m, const D: usize> {
     /// Δt in s.
     time_step: f64,
     step: u64,
-    displacement: Vec<f64>,
-    increment: Vec<f64>,
-    force: Vec<f64>,
+    displacement: Field,
+    increment: Field,
+    /// The displacements of the next time while they are made, or a sum of forces.
+    other: Field,
+    /// Sums of forces on a piece, for each band of a pass.
+    sums: Vec<Field>,
+    /// By piece, the only term that acts there, where there is one and no constraint.
+    alone: Vec<Option<usize>>,
+    ghosts: Vec<Ghost<D>>,
     broken: Broken,
 }
 
@@ -45,25 +70,38 @@ impl<'m, const D: usize> March<'m, D> {
     /// The body at t = 0 with displacement u and Δt v in m, as fields of the model's grid.
     pub fn from_fields(
         model: &'m Model<D>,
-        displacement: Vec<f64>,
-        velocity_step: Vec<f64>,
+        displacement: impl Into<Field>,
+        velocity_step: impl Into<Field>,
         time_step: f64,
     ) -> Self {
-        let force = model.grid.field();
+        let grid = &model.grid;
         let broken = model.breaking.as_ref().map_or_else(|| Broken::none().clone(), RunningNotches::intact);
-        let mut march =
-            Self { model, time_step, step: 0, displacement, increment: model.grid.field(), force, broken };
+        let bands = rayon::current_num_threads().min(grid.count() / WORTH_A_THREAD).clamp(1, grid.pieces());
+        let mut march = Self {
+            model,
+            time_step,
+            step: 0,
+            displacement: displacement.into(),
+            increment: grid.field(),
+            other: grid.field(),
+            sums: vec![Field::zeros(grid.piece()); bands],
+            alone: (0..grid.pieces()).map(|piece| alone(model, piece)).collect(),
+            ghosts: if model.edges.repeats_pieces() { Vec::new() } else { model.edges.ghosts(grid) },
+            broken,
+        };
         for constraint in &model.constraints {
-            constraint.hold(0.0, &march.displacement, &mut march.increment);
+            constraint.hold(0.0, Window::from(&march.displacement), &mut march.increment, 0);
         }
         add(&mut march.displacement, &march.increment);
-        march.increment = velocity_step;
+        march.increment = velocity_step.into();
         model.fill_ghosts(&mut march.displacement);
         march.commit();
-        let mut force = std::mem::take(&mut march.force);
+        let mut force = std::mem::take(&mut march.other);
         model.force(&march.now(), &mut force);
         accelerate(model, -0.5 * time_step * time_step, &force, &mut march.increment);
-        march.force = force;
+        // Ghosts and removed nodes do not move: what the other field holds of them is what it will hold.
+        force.copy_from_slice(&march.displacement);
+        march.other = force;
         march
     }
 
@@ -95,17 +133,18 @@ impl<'m, const D: usize> March<'m, D> {
     /// The velocity in m/s at the present time, (u(n+1) − u(n−1))/2Δt, by a trial of the next step that changes nothing.
     /// There is no step before the first: the velocity at t = 0 is the one given as `start`, and nodes that are driven
     /// take that of the step which they begin.
-    pub fn velocity(&self, start: Option<Vec<f64>>) -> Vec<f64> {
+    pub fn velocity(&self, start: Option<Field>) -> Field {
         let (model, time_step) = (self.model, self.time_step);
         let (mut force, mut next) = (model.grid.field(), self.increment.clone());
         model.force(&self.now(), &mut force);
         accelerate(model, time_step * time_step, &force, &mut next);
         let time = (self.step + 1) as f64 * time_step;
-        model.constraints.iter().for_each(|constraint| constraint.hold(time, &self.displacement, &mut next));
+        let now = Window::from(&self.displacement);
+        model.constraints.iter().for_each(|constraint| constraint.hold(time, now, &mut next, 0));
         let Some(mut velocity) = start else {
             return next
                 .iter()
-                .zip(&self.increment)
+                .zip(self.increment.iter())
                 .map(|(next, last)| (next + last) / (2.0 * time_step))
                 .collect();
         };
@@ -144,7 +183,7 @@ impl<'m, const D: usize> March<'m, D> {
         let at = |step: u64| {
             let (time, mut increment) = (step as f64 * self.time_step, self.increment.clone());
             for constraint in &self.model.constraints {
-                constraint.hold(time, &self.displacement, &mut increment);
+                constraint.hold(time, Window::from(&self.displacement), &mut increment, 0);
             }
             increment
         };
@@ -166,8 +205,8 @@ impl<'m, const D: usize> March<'m, D> {
     /// The state in the terms of forces.
     pub fn now(&self) -> Now<'_> {
         Now {
-            displacement: &self.displacement,
-            increment: &self.increment,
+            displacement: Window::from(&self.displacement),
+            increment: Window::from(&self.increment),
             time: self.time(),
             time_step: self.time_step,
             broken: &self.broken,
@@ -181,23 +220,58 @@ impl<'m, const D: usize> March<'m, D> {
 
     /// Marches on to a step. Nothing looks at the body in between.
     pub fn advance_to(&mut self, step: u64) {
+        if self.sums.len() == 1 {
+            return self.pass_to(step);
+        }
+        // One worker goes from pass to pass and is not called anew for each.
+        rayon::scope(|_| self.pass_to(step));
+    }
+
+    /// Pass after pass.
+    fn pass_to(&mut self, step: u64) {
+        let one = self.model.breaking.is_some() || self.model.edges.repeats_pieces();
+        let most = if one { 1 } else { STEPS_PER_PASS };
         while self.step < step {
-            let mut force = std::mem::take(&mut self.force);
-            self.model.force(&self.now(), &mut force);
-            self.force = force;
-            self.move_on();
+            let left = usize::try_from(step - self.step).unwrap_or(most);
+            self.pass(left.min(most));
             self.commit();
+        }
+    }
+
+    /// Up to so many steps in one pass.
+    fn pass(&mut self, steps: usize) {
+        let model = self.model;
+        let grid = &model.grid;
+        let schedule = Schedule::new(grid.pieces(), grid.lag(), steps, self.sums.len());
+        let pass = Pass {
+            model,
+            broken: &self.broken,
+            alone: &self.alone,
+            ghosts: &self.ghosts,
+            time_step: self.time_step,
+            step: self.step,
+            displacement: [Shared::new(&mut self.displacement), Shared::new(&mut self.other)],
+            increment: Shared::new(&mut self.increment),
+        };
+        pass.run(&schedule, &mut self.sums);
+        self.step += schedule.levels as u64;
+        if schedule.levels % 2 == 1 {
+            std::mem::swap(&mut self.displacement, &mut self.other);
+        }
+        if model.edges.repeats_pieces() {
+            model.fill_ghosts(&mut self.displacement);
         }
     }
 
     /// One step, with every force booked. The same bits as without.
     pub fn advance_booked(&mut self, ledger: &mut Ledger<D>) {
-        let mut force = std::mem::take(&mut self.force);
+        let mut force = std::mem::take(&mut self.other);
         ledger.sum_forces(self.model, &self.now(), &mut force);
-        self.force = force;
         let before = ledger.remember(&self.increment);
-        self.move_on();
-        ledger.book(self.model, before, &self.force, &self.now());
+        self.move_on(&force);
+        ledger.book(self.model, before, &force, &self.now());
+        force.copy_from_slice(&self.displacement);
+        self.other = force;
         if let Some(before) = self.commit() {
             ledger.release(self.model, &self.now(), &before);
         }
@@ -214,12 +288,12 @@ impl<'m, const D: usize> March<'m, D> {
     }
 
     /// The second half of a step, the force being known.
-    fn move_on(&mut self) {
-        accelerate(self.model, self.time_step * self.time_step, &self.force, &mut self.increment);
+    fn move_on(&mut self, force: &[f64]) {
+        accelerate(self.model, self.time_step * self.time_step, force, &mut self.increment);
         self.step += 1;
         let next = self.time();
         for constraint in &self.model.constraints {
-            constraint.hold(next, &self.displacement, &mut self.increment);
+            constraint.hold(next, Window::from(&self.displacement), &mut self.increment, 0);
         }
         let increment = &self.increment;
         let (start, piece) = (self.model.grid.body().start, self.model.grid.piece());
@@ -236,6 +310,17 @@ impl<'m, const D: usize> March<'m, D> {
     }
 }
 
+/// The only term that acts on a piece, where there is one and no constraint.
+fn alone<const D: usize>(model: &Model<D>, piece: usize) -> Option<usize> {
+    let range = model.grid.range(piece);
+    let held = |places: &[usize]| places.iter().any(|place| range.contains(place));
+    if model.constraints.iter().any(|constraint| held(constraint.places())) {
+        return None;
+    }
+    let mut acting = (0..model.forces().len()).filter(|&index| model.forces()[index].acts_on(piece));
+    acting.next().filter(|_| acting.next().is_none())
+}
+
 fn add(to: &mut [f64], what: &[f64]) {
     to.iter_mut().zip(what).for_each(|(to, what)| *to += what);
 }
@@ -244,17 +329,8 @@ fn add(to: &mut [f64], what: &[f64]) {
 fn accelerate<const D: usize>(model: &Model<D>, scale: f64, force: &[f64], increment: &mut [f64]) {
     let (start, piece) = (model.grid.body().start, model.grid.piece());
     model.each_piece(increment, |index, d| {
-        let range = start + index * piece..start + index * piece + d.len();
-        let force = &force[range.clone()];
-        match &model.inertia {
-            Inertia::Uniform(density) => {
-                let factor = scale / density;
-                d.iter_mut().zip(force).for_each(|(d, force)| *d += factor * force);
-            }
-            Inertia::Diagonal(densities) => {
-                let terms = force.iter().zip(&densities[range]);
-                d.iter_mut().zip(terms).for_each(|(d, (force, density))| *d += scale / density * force);
-            }
-        }
+        let start = start + index * piece;
+        let force = &force[start..start + d.len()];
+        model.isa.run(Accelerate { inertia: &model.inertia, scale, start, force, increment: d });
     });
 }

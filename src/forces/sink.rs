@@ -1,0 +1,89 @@
+//! Where a kernel leaves the force on a block of nodes: added to a sum, or spent at once on the step of the nodes.
+//!
+//! A step is u(n+1) = u(n) + d, d ← d + Δt²/ρ F. Where bonds alone act on a piece of work no sum is written and read
+//! again; the arithmetic is that of [`crate::march`] to the last bit: the sum starts from zero there.
+
+use super::stencil::Folded;
+use crate::simd::Lanes;
+use std::ops::Range;
+
+/// Takes the force on nodes side by side.
+pub trait Sink {
+    /// `place` is that of the first lane in the field, `here` the displacement there, of which component does not matter.
+    ///
+    /// # Safety
+    /// The block lies within the piece.
+    unsafe fn put<V: Lanes>(&mut self, place: usize, here: V, force: V, lanes: Range<usize>);
+
+    /// Says that a place will be taken soon.
+    fn expect<V: Lanes>(&self, place: usize);
+
+    /// Takes what a folded stencil leaves: said for each sink, so that its kernels are compiled here and nowhere else.
+    fn take(&mut self, folded: &Folded<'_>);
+}
+
+/// Adds to the sum of a piece.
+pub struct Sum<'a> {
+    pub sum: &'a mut [f64],
+    /// Place of its first number.
+    pub start: usize,
+}
+
+impl Sink for Sum<'_> {
+    #[inline(always)]
+    unsafe fn put<V: Lanes>(&mut self, place: usize, _here: V, force: V, lanes: Range<usize>) {
+        let at = place - self.start;
+        // SAFETY: the caller's.
+        unsafe {
+            let sum = V::load(self.sum, at) + force;
+            if lanes.len() == V::N { sum.store(self.sum, at) } else { sum.store_some(self.sum, at, lanes) }
+        }
+    }
+
+    #[inline(always)]
+    fn expect<V: Lanes>(&self, _place: usize) {}
+
+    fn take(&mut self, folded: &Folded<'_>) {
+        folded.serve(self);
+    }
+}
+
+/// Moves the nodes of a piece.
+pub struct Step<'a> {
+    /// u(n) − u(n−1), becomes u(n+1) − u(n).
+    pub increment: &'a mut [f64],
+    /// Becomes u(n+1).
+    pub next: &'a mut [f64],
+    /// Place of their first number.
+    pub start: usize,
+    /// Δt²/ρ.
+    pub factor: f64,
+}
+
+impl Sink for Step<'_> {
+    #[inline(always)]
+    unsafe fn put<V: Lanes>(&mut self, place: usize, here: V, force: V, lanes: Range<usize>) {
+        let at = place - self.start;
+        // SAFETY: the caller's; `next` is as long as `increment`.
+        unsafe {
+            let moved = V::load(self.increment, at) + V::splat(self.factor) * (V::splat(0.0) + force);
+            if lanes.len() == V::N {
+                moved.store(self.increment, at);
+                (here + moved).store(self.next, at);
+            } else {
+                moved.store_some(self.increment, at, lanes.clone());
+                (here + moved).store_some(self.next, at, lanes);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn expect<V: Lanes>(&self, place: usize) {
+        V::prefetch(self.increment, place.wrapping_sub(self.start));
+        V::prefetch(self.next, place.wrapping_sub(self.start));
+    }
+
+    fn take(&mut self, folded: &Folded<'_>) {
+        folded.serve(self);
+    }
+}

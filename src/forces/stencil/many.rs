@@ -1,0 +1,204 @@
+//! The plane stencil of families of any reach: the sums of a column pass through the first cache.
+//!
+//! The same sums as in [`super::few`], with loops over the family in place of registers: two i at a time, so that enough
+//! sums grow side by side, and neighbours gathered by loads that are not aligned.
+
+use super::bondwise::Masked;
+use super::quadrant::Quadrant;
+use crate::field::Window;
+use crate::forces::sink::Sink;
+use crate::simd::{Kernel, Lanes};
+
+/// Numbers of the scratch: the columns of a strip.
+const SCRATCH: usize = 16_384;
+
+/// The largest reach whose columns are kept between two passes.
+const MOST: usize = 64;
+
+/// On a line of the cache.
+#[repr(align(64))]
+struct Scratch([f64; SCRATCH]);
+
+/// S and D of a column: x and y of the sums, x and y of the differences, by j.
+#[repr(align(64))]
+struct Column([[f64; 8]; 4 * (MOST + 1)]);
+
+/// The bonds of nodes that have them all, in some rows.
+pub struct Many<'a, S> {
+    pub quadrant: &'a Quadrant,
+    pub runs: &'a [Masked],
+    pub displacement: Window<'a>,
+    pub stride: usize,
+    pub row: usize,
+    pub sink: &'a mut S,
+}
+
+/// Vectors of a block of columns.
+fn planes(quadrant: &Quadrant) -> usize {
+    1 + 4 * quadrant.reach
+}
+
+/// Whether the scratch holds a strip worth its two borders.
+pub fn serves(quadrant: &Quadrant) -> bool {
+    let border = 2 * quadrant.reach.next_multiple_of(8);
+    quadrant.reach <= MOST && SCRATCH / planes(quadrant) >= 2 * border
+}
+
+impl<S: Sink> Kernel for Many<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Lanes>(mut self) {
+        let mut scratch = Scratch([0.0; SCRATCH]);
+        let border = self.quadrant.reach.next_multiple_of(V::N);
+        let width = SCRATCH / planes(self.quadrant) / V::N * V::N;
+        let strip = width - 2 * border;
+        let Some(last) = self.runs.iter().map(|Masked { run, .. }| run.start % self.row + run.len).max()
+        else {
+            return;
+        };
+        let first = self.runs.iter().map(|Masked { run, .. }| run.start % self.row).min().unwrap_or(0) & !7;
+        for strip_start in (first..last).step_by(strip) {
+            for Masked { run, .. } in self.runs {
+                let base = run.start - run.start % self.row;
+                let from = run.start.max(base + strip_start);
+                let until = (run.start + run.len).min(base + strip_start + strip);
+                if from < until {
+                    self.stretch::<V>([from, until], border, width, &mut scratch.0);
+                }
+            }
+        }
+    }
+}
+
+impl<S: Sink> Many<'_, S> {
+    /// Nodes of one row, at most a strip.
+    #[inline(always)]
+    fn stretch<V: Lanes>(
+        &mut self,
+        [from, until]: [usize; 2],
+        border: usize,
+        width: usize,
+        scratch: &mut [f64; SCRATCH],
+    ) {
+        let aligned = from - from % V::N;
+        let count = (until - aligned).next_multiple_of(V::N);
+        let (u, start) = (self.displacement.values(), self.displacement.start());
+        let rows = self.quadrant.reach * self.row;
+        assert!(start + rows + border <= aligned, "rows below are seen");
+        assert!(aligned + self.stride + rows + count + border <= start + u.len(), "rows above are seen");
+        assert!(count + 2 * border <= width && width * planes(self.quadrant) <= SCRATCH, "a strip fits");
+        // SAFETY: the loads of both stay in the range just asserted, those of the scratch in its planes.
+        unsafe {
+            for column in (0..count + 2 * border).step_by(V::N) {
+                self.column::<V>(aligned - border + column - start, column, width, scratch);
+            }
+            for at in (0..count).step_by(V::N) {
+                let lanes = from.saturating_sub(aligned + at)..(until - aligned - at).min(V::N);
+                self.gather::<V>(aligned + at, border + at, width, lanes, scratch);
+            }
+        }
+    }
+
+    /// P_i and M_i of a block of columns, to place `to` of each plane.
+    ///
+    /// # Safety
+    /// As in [`Self::stretch`].
+    #[inline(always)]
+    unsafe fn column<V: Lanes>(&self, at: usize, to: usize, width: usize, scratch: &mut [f64; SCRATCH]) {
+        let reach = self.quadrant.reach;
+        let mut column = Column([[0.0; 8]; 4 * (MOST + 1)]);
+        // SAFETY: the caller's; a column holds the largest reach.
+        unsafe {
+            let u = self.displacement.values();
+            for axis in 0..2 {
+                let at = at + axis * self.stride;
+                let here = V::load(u, at);
+                V::prefetch(u, at + (reach + 1) * self.row);
+                for j in 1..=reach {
+                    let (above, below) = (V::load(u, at + j * self.row), V::load(u, at - j * self.row));
+                    ((above - here) + (below - here)).store(&mut column.0[4 * j + axis], 0);
+                    (above - below).store(&mut column.0[4 * j + 2 + axis], 0);
+                }
+            }
+            let mut own = V::splat(0.0);
+            for j in 1..=reach {
+                let [_, yy, _] = self.quadrant.at(0, j);
+                own = V::splat(yy).mul_add(V::load(&column.0[4 * j + 1], 0), own);
+            }
+            own.store(scratch, to);
+            for i in (1..=reach).step_by(2) {
+                let tops = [self.quadrant.tops[i], self.quadrant.tops.get(i + 1).copied().unwrap_or(0)];
+                let mut sums = [[V::splat(0.0); 4]; 2];
+                for j in 1..=tops[1] {
+                    self.add::<V>(&column, j, i, &mut sums[0]);
+                    self.add::<V>(&column, j, i + 1, &mut sums[1]);
+                }
+                for j in tops[1] + 1..=tops[0] {
+                    self.add::<V>(&column, j, i, &mut sums[0]);
+                }
+                for (i, [a, b, c, d]) in (i..=reach).zip(sums) {
+                    let to = to + (1 + 4 * (i - 1)) * width;
+                    (a + b).store(scratch, to);
+                    (a - b).store(scratch, to + width);
+                    (c + d).store(scratch, to + 2 * width);
+                    (c - d).store(scratch, to + 3 * width);
+                }
+            }
+        }
+    }
+
+    /// A bond (i, j) to A, B of x and A, B of y.
+    ///
+    /// # Safety
+    /// `j` is in the column.
+    #[inline(always)]
+    unsafe fn add<V: Lanes>(&self, column: &Column, j: usize, i: usize, sums: &mut [V; 4]) {
+        let [xx, yy, xy] = self.quadrant.at(i, j).map(V::splat);
+        // SAFETY: lines of eight.
+        let [sx, sy, dx, dy] = unsafe { [0, 1, 2, 3].map(|of| V::load(&column.0[4 * j + of], 0)) };
+        sums[0] = xx.mul_add(sx, sums[0]);
+        sums[1] = xy.mul_add(dy, sums[1]);
+        sums[2] = yy.mul_add(sy, sums[2]);
+        sums[3] = xy.mul_add(dx, sums[3]);
+    }
+
+    /// The force on a block of nodes from the columns around place `at` of each plane.
+    ///
+    /// # Safety
+    /// As in [`Self::stretch`].
+    #[inline(always)]
+    unsafe fn gather<V: Lanes>(
+        &mut self,
+        place: usize,
+        at: usize,
+        width: usize,
+        lanes: std::ops::Range<usize>,
+        scratch: &[f64; SCRATCH],
+    ) {
+        let quadrant = self.quadrant;
+        // SAFETY: the caller's.
+        unsafe {
+            for axis in 0..2 {
+                let (u, here_at) =
+                    (self.displacement.values(), place + axis * self.stride - self.displacement.start());
+                let here = V::load(u, here_at);
+                let row = if axis == 0 { &quadrant.row_x } else { &quadrant.row_y };
+                let mut force = if axis == 1 { V::load(scratch, at) } else { V::splat(0.0) };
+                for i in 1..=quadrant.reach {
+                    let (forward, backward) = (V::load(u, here_at + i), V::load(u, here_at - i));
+                    force = V::splat(row[i]).mul_add((forward - here) + (backward - here), force);
+                    if quadrant.tops[i] > 0 {
+                        let plane = (1 + 4 * (i - 1) + 2 * axis) * width;
+                        let plus = V::load(scratch, plane + at + i);
+                        let minus = V::load(scratch, plane + width + at - i);
+                        force = force + (plus + minus);
+                    }
+                }
+                let place = place + axis * self.stride;
+                self.sink.expect::<V>(place + self.row);
+                self.sink.put(place, here, force, lanes.clone());
+            }
+        }
+    }
+}
