@@ -131,6 +131,7 @@ mod tests {
     use crate::shipped::SHIPPED;
     use crate::subject::Subject;
     use pd_verify::claim::Claim;
+    use pd_verify::plan::work::Work;
 
     /// A question that marches one scene.
     struct Marching;
@@ -158,6 +159,7 @@ mod tests {
                 node_updates: 2_000_000,
                 bond_updates: 6_000_000,
                 steps_per_cell: None,
+                work: Work::default(),
             }]
         }
 

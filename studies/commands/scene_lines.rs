@@ -162,6 +162,7 @@ fn listed(effects: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pd_verify::plan::work::Work;
 
     fn scene(number: usize, operator: &str) -> Planned {
         Planned {
@@ -181,6 +182,7 @@ mod tests {
             node_updates: 4_000_000,
             bond_updates: 12_000_000,
             steps_per_cell: None,
+            work: Work::default(),
         }
     }
 
