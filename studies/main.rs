@@ -5,6 +5,7 @@
 
 mod attachment;
 mod bar;
+mod bench;
 mod bibliography;
 mod cli;
 mod commands;
