@@ -69,6 +69,7 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
         Command::List { json } => print(&list::list(json)?),
         Command::Explain { id, bibtex, toml } => print(&explain::explain(&id, bibtex, toml)?),
         Command::Plan { study, json, profile, set } => print(&plan::plan(&study, json, profile, &set)?),
+        Command::Bench(options) => commands::bench::bench(&options),
         Command::Schema => print(&format!("{:#}\n", schema::schema())),
         Command::Completions { shell } => {
             let mut script = Vec::new();
