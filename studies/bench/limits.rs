@@ -54,6 +54,18 @@ impl Limits {
         }
     }
 
+    /// The better of two measurements, for a machine that is shared with others.
+    pub fn or_better(self, other: &Self) -> Self {
+        let pairs = self.triad_by_bytes.iter().zip(&other.triad_by_bytes);
+        Self {
+            threads: self.threads,
+            triad_gbyte_per_s: self.triad_gbyte_per_s.max(other.triad_gbyte_per_s),
+            triad_cache_gbyte_per_s: self.triad_cache_gbyte_per_s.max(other.triad_cache_gbyte_per_s),
+            triad_by_bytes: pairs.map(|(one, other)| (one.0, one.1.max(other.1))).collect(),
+            fma_gflop_per_s: self.fma_gflop_per_s.max(other.fma_gflop_per_s),
+        }
+    }
+
     /// The rate of triads over as many bytes as a body needs in each step, in GB/s.
     pub fn triad_at(&self, bytes: f64) -> f64 {
         let after = self.triad_by_bytes.partition_point(|(size, _)| *size <= bytes);

@@ -110,6 +110,7 @@ fn one_case(case: Case, isa: Isa, options: &BenchOptions) -> Result<u8, Refusal>
         Ok(measured) => measured,
         Err(failure) => return ended(failure),
     };
+    let limits = limits.or_better(&pools.all.install(|| Limits::measure(isa)));
     let rates = Rates::of(group.name, isa, &measured[0], &measured[0], &limits);
     let text = match options.json {
         true => pretty(&one(&rates, &limits)),
@@ -124,10 +125,10 @@ fn whole_suite(isa: Isa, options: &BenchOptions, output: &Output) -> Result<u8, 
     let groups = suite(threads);
     let progress = Progress::new(groups.len() + 2, !options.no_progress);
     progress.at("limits");
-    let limits = pools.all.install(|| Limits::measure(isa));
-    let limits_alone = pools.one.install(|| Limits::measure(isa));
+    let of_all = || pools.all.install(|| Limits::measure(isa));
+    let (mut limits, limits_alone) = (of_all(), pools.one.install(|| Limits::measure(isa)));
     progress.step();
-    let mut cases = Vec::new();
+    let mut groups_measured = Vec::new();
     for group in &groups {
         progress.at(group.name);
         let (group, left_out) = memory::fitting(group);
@@ -136,10 +137,15 @@ fn whole_suite(isa: Isa, options: &BenchOptions, output: &Output) -> Result<u8, 
             Ok(measured) => measured,
             Err(failure) => return ended(failure),
         };
-        let limits = |one: &Measured| if one.case.alone { &limits_alone } else { &limits };
-        cases.extend(measured.iter().map(|one| Rates::of(group.name, isa, one, &measured[0], limits(one))));
+        groups_measured.push((group.name, measured));
+        limits = limits.or_better(&of_all());
         progress.step();
     }
+    let limit = |one: &Measured| if one.case.alone { &limits_alone } else { &limits };
+    let rates = |(group, measured): &(&'static str, Vec<Measured>)| -> Vec<Rates> {
+        measured.iter().map(|one| Rates::of(group, isa, one, &measured[0], limit(one))).collect()
+    };
+    let cases: Vec<Rates> = groups_measured.iter().flat_map(rates).collect();
     progress.at("predictions");
     let costs = costs::costs(&cases, threads);
     let forecasts = match forecasts(&costs, &pools, CHECK, &interrupted) {
