@@ -80,6 +80,9 @@ pub enum Command {
         /// Change one value of the study: dotted.path=value
         #[arg(long, value_name = "PATH=VALUE")]
         set: Vec<String>,
+        /// Folder of results: what `bench` left there says how long the study will take
+        #[arg(long, value_name = "DIR", default_value = "reports")]
+        out: PathBuf,
     },
     /// How fast bodies are marched, beside what the machine can do: the whole suite, or one plate
     Bench(BenchOptions),

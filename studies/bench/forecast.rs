@@ -1,7 +1,7 @@
 //! Predicted against measured: bodies of other sizes, families and mixtures than those from which the costs were taken.
 
 use super::bodies::{bar, body_force, cut_from_below, cut_from_left, damping, hole, plate, traction};
-use super::cases::{Case, Group};
+use super::cases::{Case, Group, plain};
 use super::measure::{Failure, Measured, Pace, Pools, measure};
 use super::rates::median;
 use pd_verify::constraints::Edges;
@@ -18,12 +18,15 @@ pub struct Forecast {
     pub measured_seconds_per_step: f64,
     /// Predicted over measured.
     pub ratio: Option<f64>,
+    /// The same, both over what they are for the plate of reference: how busy the machine is does not count.
+    pub ratio_beside_reference: Option<f64>,
 }
 
-/// The bodies; none is a case of the suite.
+/// The plate of reference, and bodies of which none is a case of the suite.
 fn bodies() -> Group {
     let free = Edges::<2>::default();
     let cases = vec![
+        Case::new("1024², m = 3", plain()),
         Case::new("90 × 70, m = 3", plate([90, 70], 3.0)),
         Case::new("384², m = 5", plate([384; 2], 5.0)),
         Case::new("1500 × 300, m = 2", plate([1500, 300], 2.0)),
@@ -62,16 +65,20 @@ pub fn forecasts(
     pace: Pace,
     stop: &dyn Fn() -> bool,
 ) -> Result<Vec<Forecast>, Failure> {
-    Ok(measure(&bodies(), pools, pace, stop)?.iter().map(|one| of(costs, one)).collect())
+    let measured = measure(&bodies(), pools, pace, stop)?;
+    Ok(measured.iter().map(|one| of(costs, one, &measured[0])).collect())
 }
 
-fn of(costs: &Costs, measured: &Measured) -> Forecast {
-    let predicted = costs.of_step(&measured.plan.work);
+fn of(costs: &Costs, measured: &Measured, reference: &Measured) -> Forecast {
+    let (predicted, of_reference) = (costs.of_step(&measured.plan.work), costs.of_step(&reference.plan.work));
     let seconds = 1.0 / median(&measured.rates);
     Forecast {
         name: measured.case.name.clone(),
         predicted_seconds_per_step: predicted,
         measured_seconds_per_step: seconds,
         ratio: predicted.map(|predicted| predicted / seconds),
+        ratio_beside_reference: predicted
+            .zip(of_reference)
+            .map(|(predicted, of_reference)| predicted / of_reference * median(&measured.ratios)),
     }
 }

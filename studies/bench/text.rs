@@ -80,7 +80,8 @@ pub fn forecasts(forecasts: &[Forecast]) -> String {
         let predicted = one.predicted_seconds_per_step.map(|seconds| 1e3 * seconds);
         let measured = Some(1e3 * one.measured_seconds_per_step);
         let (predicted, measured, ratio) = (number(predicted, 4), number(measured, 4), number(one.ratio, 2));
-        text += &format!("  {:<width$} {predicted:>10} {measured:>10} {ratio:>9}\n", one.name);
+        let beside = number(one.ratio_beside_reference, 2);
+        text += &format!("  {:<width$} {predicted:>10} {measured:>10} {ratio:>9} {beside:>17}\n", one.name);
     }
     text
 }
