@@ -128,36 +128,14 @@ fn sorted<'a>(cases: impl Iterator<Item = &'a Rates>, by: fn(&Rates) -> u64) -> 
 
 #[cfg(test)]
 mod tests {
+    use super::super::rates::sample;
     use super::*;
 
     /// A case of a plate whose steps take `seconds` where those of 1000 nodes of reference take 1.5 s.
     fn case(work: Work, seconds: f64) -> Rates {
         let node_count = work.kinds.nodes();
-        Rates {
-            group: "g",
-            name: String::new(),
-            operator: "stencil",
-            isa: "baseline",
-            threads: 2,
-            nodes: 0,
-            cells: Vec::new(),
-            node_count,
-            m: 3.0,
-            masked_share: 0.0,
-            node_updates_per_s: 0.0,
-            bond_updates_per_s: 0.0,
-            gflop_per_s: 0.0,
-            gbyte_per_s: 0.0,
-            of_limit: 0.0,
-            limit: "flops",
-            ratio: 1.5 * node_count as f64 / (1000.0 * seconds),
-            bond_ratio: 1.0,
-            spread: 0.0,
-            steps: 1,
-            rounds: 1,
-            work,
-            seconds_per_step: seconds,
-        }
+        let ratio = 1.5 * node_count as f64 / (1000.0 * seconds);
+        Rates { group: "g", node_count, ratio, work, seconds_per_step: seconds, ..sample() }
     }
 
     fn whole(whole_nodes: u64, pairs: u64) -> Work {

@@ -11,11 +11,13 @@ pub fn figures(cases: &[Rates]) -> Vec<Figure> {
 fn shares(cases: &[Rates]) -> Figure {
     let mut groups: Vec<&str> = cases.iter().map(|case| case.group).collect();
     groups.dedup();
+    let most = cases.iter().map(|case| case.of_limit).fold(1.0, f64::max);
     let panel = |group: &&str| {
         let of_group = cases.iter().filter(|case| case.group == *group);
         let stacks = of_group.map(|case| Stack { label: case.name.clone(), parts: parts(case) }).collect();
         let names = vec!["set by operations".to_owned(), "set by bytes".to_owned()];
-        StackedBars::new(Axis::linear("share of the limit"), names, "", stacks).titled(*group)
+        let axis = Axis::linear("share of the limit").range(0.0, 1.02 * most);
+        StackedBars::new(axis, names, "share", stacks).titled(*group)
     };
     let panels = groups.iter().map(panel).map(Into::into).collect();
     Figure {

@@ -128,3 +128,59 @@ pub fn read(out: &Path) -> Result<Option<Kept>, Refusal> {
         Ok(text) => serde_json::from_str(&text).map(Some).map_err(|error| refuse(error.to_string())),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::rates::sample;
+    use super::*;
+    use pd_verify::plan::time::BodyCosts;
+
+    fn suite() -> Suite {
+        let limits = Limits {
+            threads: 2,
+            triad_gbyte_per_s: 30.0,
+            triad_cache_gbyte_per_s: 300.0,
+            triad_by_bytes: vec![(1e6, 300.0), (1e9, 30.0)],
+            fma_gflop_per_s: 200.0,
+        };
+        let plate = BodyCosts { step_s: 0.1, whole_by_pairs: vec![(18.0, 1e-9)], ..BodyCosts::default() };
+        let slow = Rates { name: "slow".into(), ratio: 0.5, ..sample() };
+        let forecasts = Vec::new();
+        Suite { limits, cases: vec![sample(), slow], costs: Costs { plate, ..Costs::default() }, forecasts }
+    }
+
+    #[test]
+    fn what_is_left_is_read_again() {
+        let folder = tempfile::tempdir().unwrap();
+        assert_eq!(read(folder.path()).unwrap(), None);
+        std::fs::create_dir(folder.path().join(FOLDER)).unwrap();
+        let file = folder.path().join(FOLDER).join(FILE);
+        std::fs::write(&file, suite().json().to_string()).unwrap();
+        let kept = read(folder.path()).unwrap().unwrap();
+        assert_eq!((kept.isa.as_str(), kept.threads, &kept.costs), ("baseline", 2, &suite().costs));
+        for foreign in ["", "{}", "[1, 2]", "{\"isa\": 3}"] {
+            std::fs::write(&file, foreign).unwrap();
+            assert!(
+                read(folder.path()).unwrap_err().to_string().contains("bench.json is no result"),
+                "{foreign}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_plate_of_reference_stands_for_all_and_every_case_has_its_numbers() {
+        let json = suite().json();
+        for key in ["node_updates_per_s", "bond_updates_per_s", "gflop_per_s", "gbyte_per_s", "of_limit"] {
+            assert_eq!(json[key], json["cases"][0][key]);
+            assert!(json["cases"][1][key].is_number(), "{key}");
+        }
+        assert_eq!((&json["triad_gbyte_per_s"], &json["fma_gflop_per_s"]), (&json!(30.0), &json!(200.0)));
+        assert_eq!((&json["cases"][1]["name"], &json["cases"][1]["ratio"]), (&json!("slow"), &json!(0.5)));
+        let csv = suite().table().csv();
+        assert_eq!(csv.lines().count(), 3);
+        assert!(
+            csv.lines().nth(2).unwrap().starts_with("plates by size,slow,stencil,baseline,2,1048576,3,0,"),
+            "{csv}"
+        );
+    }
+}

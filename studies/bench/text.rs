@@ -72,8 +72,10 @@ pub fn one(case: &Rates) -> String {
 /// Predicted against measured.
 pub fn forecasts(forecasts: &[Forecast]) -> String {
     let width = forecasts.iter().map(|one| one.name.chars().count()).max().unwrap_or(0);
-    let mut text =
-        format!("\n{:<width$}   {:>10} {:>10} {:>9}\n", "ms per step", "predicted", "measured", "ratio");
+    let mut text = format!(
+        "\npredictions from these costs, on other bodies\n  {:<width$} {:>10} {:>10} {:>9} {:>17}\n",
+        "ms per step", "predicted", "measured", "ratio", "beside reference"
+    );
     let number =
         |value: Option<f64>, digits: usize| value.map_or("–".into(), |value| format!("{value:.digits$}"));
     for one in forecasts {

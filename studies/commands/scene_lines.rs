@@ -248,7 +248,7 @@ mod tests {
         let text = SceneLines::default().of_case(&[scene(2, "half"), at_rest]);
         let words: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
         let row = words.iter().find(|words| words.starts_with(&["m", "=", "1"])).unwrap();
-        assert_eq!(row[3..], ["1000", "3000", "56.0", "at", "rest", "-", "-", "-"], "{text}");
+        assert_eq!(row[3..], ["1000", "3000", "56.0", "at", "rest", "-", "-", "-", "-"], "{text}");
         let widths: Vec<usize> = text.lines().skip(3).map(|line| line.chars().count()).collect();
         assert!(widths.windows(2).all(|pair| pair[0] == pair[1]), "{text}");
     }
