@@ -80,7 +80,12 @@ pub enum Command {
         /// Change one value of the study: dotted.path=value
         #[arg(long, value_name = "PATH=VALUE")]
         set: Vec<String>,
+        /// Folder of results: what `bench` left there says how long the study will take
+        #[arg(long, value_name = "DIR", default_value = "reports")]
+        out: PathBuf,
     },
+    /// How fast bodies are marched, beside what the machine can do: the whole suite, or one plate
+    Bench(BenchOptions),
     /// The JSON schema of study files
     Schema,
     /// A completion script for your shell
@@ -117,6 +122,46 @@ pub struct RunOptions {
     /// No progress on the terminal
     #[arg(long)]
     pub no_progress: bool,
+}
+
+/// Options of `bench`.
+#[derive(Debug, Clone, Args)]
+pub struct BenchOptions {
+    /// One plate of N × N nodes in place of the suite; 1024 if only others of its options are given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16_384))]
+    pub nodes: Option<u32>,
+    /// Its horizon over its spacing; 3 if not given
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub m: Option<f64>,
+    /// Steps to march, once; if not given as many as take a fifth of a second, seven times
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000_000))]
+    pub steps: Option<u64>,
+    /// What serves its bonds; a stencil if not given
+    #[arg(long, value_enum)]
+    pub operator: Option<BondOperator>,
+    /// Threads to use; all if not given
+    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Instruction set; the best here if not given
+    #[arg(long, value_enum)]
+    pub isa: Option<Isa>,
+    /// Machine-readable
+    #[arg(long)]
+    pub json: bool,
+    /// Folder of the results; the suite writes bench/ there, one plate is only printed
+    #[arg(long, value_name = "DIR", default_value = "reports")]
+    pub out: PathBuf,
+    /// No progress on the terminal
+    #[arg(long)]
+    pub no_progress: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum BondOperator {
+    /// One family for all nodes
+    Stencil,
+    /// Every bond stored
+    Bonds,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -5,6 +5,7 @@
 
 mod attachment;
 mod bar;
+mod bench;
 mod bibliography;
 mod cli;
 mod commands;
@@ -67,7 +68,10 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
         Command::Run { files, options } => judge::files(&files, &options).map(judge::End::code),
         Command::List { json } => print(&list::list(json)?),
         Command::Explain { id, bibtex, toml } => print(&explain::explain(&id, bibtex, toml)?),
-        Command::Plan { study, json, profile, set } => print(&plan::plan(&study, json, profile, &set)?),
+        Command::Plan { study, json, profile, set, out } => {
+            print(&plan::plan(&study, json, profile, &set, &out)?)
+        }
+        Command::Bench(options) => commands::bench::bench(&options),
         Command::Schema => print(&format!("{:#}\n", schema::schema())),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -111,7 +111,8 @@ impl Manifest {
     }
 }
 
-fn cpu_model() -> String {
+/// The processor, as the system names it.
+pub fn cpu_model() -> String {
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = info
         .lines()

@@ -19,6 +19,11 @@ pub fn listen() {
     let _ = ctrlc::set_handler(handler);
 }
 
+/// Whether Ctrl-C was pressed.
+pub fn interrupted() -> bool {
+    INTERRUPTED.load(Ordering::SeqCst)
+}
+
 /// The bar.
 pub struct Progress {
     bar: ProgressBar,
@@ -34,6 +39,16 @@ impl Progress {
         Self { bar }
     }
 
+    /// What is done now, where it is no case of a study.
+    pub fn at(&self, what: &str) {
+        self.bar.set_message(what.to_owned());
+    }
+
+    /// It is done.
+    pub fn step(&self) {
+        self.bar.inc(1);
+    }
+
     /// A line that stays.
     pub fn note(&self, text: &str) {
         self.bar.println(text);
@@ -46,7 +61,7 @@ impl Progress {
 
 impl Watch for Progress {
     fn stop(&self) -> bool {
-        INTERRUPTED.load(Ordering::SeqCst)
+        interrupted()
     }
 
     fn begin(&self, case: &Case) {

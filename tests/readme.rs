@@ -48,9 +48,23 @@ fn the_studies_in_it_run() {
 }
 
 #[test]
+fn its_commands_for_speed_run() {
+    let text = readme();
+    let one = text.lines().find(|line| line.starts_with("pd-verify bench --nodes")).unwrap();
+    let said = program().args(one.split_whitespace().skip(1)).assert().success();
+    let json: serde_json::Value = serde_json::from_slice(&said.get_output().stdout).unwrap();
+    assert_eq!(
+        (&json["nodes"], &json["operator"], &json["threads"]),
+        (&512.into(), &"bonds".into(), &1.into())
+    );
+    assert!(text.lines().any(|line| line == "pd-verify bench"));
+    program().args(["bench", "--help"]).assert().success();
+}
+
+#[test]
 fn its_commands_and_options_exist() {
     let text = readme();
-    for command in ["dispersion", "bar", "run", "list", "explain", "plan", "schema", "completions"] {
+    for command in ["dispersion", "bar", "bench", "run", "list", "explain", "plan", "schema", "completions"] {
         assert!(text.contains(command), "the README does not name {command}");
         program().args([command, "--help"]).assert().success();
     }

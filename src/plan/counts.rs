@@ -3,6 +3,7 @@
 //! By the sizes alone where the body is a whole rectangle of equal weights; node by node where notches or holes cut it,
 //! or weights are corrected.
 
+use super::work::Kinds;
 use crate::breaking::RunningNotches;
 use crate::connectivity::Connectivity;
 use crate::constraints::Edge;
@@ -17,12 +18,15 @@ use crate::scene::{Operator, Rotations, Scene, Watch};
 pub struct Counts {
     /// Bonds, counted once from each of their ends.
     pub ends: u64,
+    pub kinds: Kinds,
     /// Nodes whose weights differ from the lattice's, served by a list whatever the operator.
     pub band: u64,
     /// The largest factor of a surface correction.
     pub largest_factor: f64,
     /// State, force, and what the bonds keep.
     pub bytes: usize,
+    /// What the bonds keep.
+    pub kept_bytes: usize,
 }
 
 /// The nodes of the operator that was asked for, and those of the band.
@@ -52,13 +56,39 @@ impl Counts {
             None if connectivity.intact() => by_sizes(scene, stencil, grid),
             factors => by_nodes(stencil, grid, &connectivity, factors.as_ref(), breaking.as_ref()),
         };
+        let kept = operator_bytes(scene, stencil, &served) + breaking.map_or(0, |breaking| breaking.bytes());
         Self {
             ends: served.ends + served.band_ends + served.breaking_ends,
+            kinds: served.kinds(scene.operator, stencil.bonds.len()),
             band: served.band_nodes as u64,
             largest_factor: factors.map_or(1.0, |factors| factors.largest(grid)),
-            bytes: state_bytes(scene, grid)
-                + operator_bytes(scene, stencil, &served)
-                + breaking.map_or(0, |breaking| breaking.bytes()),
+            bytes: state_bytes(scene, grid) + kept,
+            kept_bytes: kept,
+        }
+    }
+}
+
+impl Served {
+    fn kinds(&self, operator: Operator, pairs: usize) -> Kinds {
+        let band = Kinds {
+            listed_nodes: self.band_nodes as u64,
+            listed_ends: self.band_ends,
+            breaking_nodes: self.breaking_nodes as u64,
+            breaking_ends: self.breaking_ends,
+            ..Kinds::default()
+        };
+        match operator {
+            Operator::Stencil => Kinds {
+                whole_nodes: self.whole as u64,
+                masked_nodes: (self.nodes - self.whole) as u64,
+                masked_ends: self.ends - (2 * pairs * self.whole) as u64,
+                ..band
+            },
+            Operator::Bonds => Kinds {
+                listed_nodes: band.listed_nodes + self.nodes as u64,
+                listed_ends: band.listed_ends + self.ends,
+                ..band
+            },
         }
     }
 }

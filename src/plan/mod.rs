@@ -4,6 +4,8 @@ mod checks;
 mod counts;
 mod running;
 mod step;
+pub mod time;
+pub mod work;
 
 pub use step::stable_time_step;
 
@@ -16,6 +18,7 @@ use crate::scene::{Acts, Operator, Rotations, Scene, Setting, Watch, Wrong, snap
 use counts::Counts;
 use serde::Serialize;
 use std::collections::HashSet;
+use work::{Effects, Work};
 
 /// What will be done.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -44,6 +47,8 @@ pub struct Plan {
     pub bond_updates: u64,
     /// Steps in which the fastest running notch passes a cell, Δx/(vΔt).
     pub steps_per_cell: Option<f64>,
+    /// What each step does.
+    pub work: Work,
 }
 
 impl Plan {
@@ -109,6 +114,7 @@ impl Plan {
             node_updates: nodes.saturating_mul(steps),
             bond_updates: (counts.ends / 2).saturating_mul(steps),
             steps_per_cell: running::steps_per_cell(scene, time_step),
+            work: Work::of(scene, &stencil, &counts, terms.effects::<D>(nodes)),
         })
     }
 
@@ -139,6 +145,8 @@ struct Terms {
     /// Loads on some nodes: which effect, its name, its places.
     loads: Vec<(usize, String, Vec<usize>)>,
     rates: usize,
+    /// Loads on every component of every node.
+    fields: usize,
 }
 
 impl Terms {
@@ -147,7 +155,9 @@ impl Terms {
         match acts {
             Acts::Force(force) => {
                 self.bytes += force.bytes();
-                self.loads.extend(force.loaded(grid).map(|places| (index, force.name(), places)));
+                let loaded = force.loaded(grid);
+                self.fields += usize::from(force.class() == Class::Load && loaded.is_none());
+                self.loads.extend(loaded.map(|places| (index, force.name(), places)));
                 self.rates += usize::from(force.class() == Class::Rate);
                 if self.rates > 1 {
                     let message = "two effects depend on the velocity; the step is solved for one of them";
@@ -167,6 +177,16 @@ impl Terms {
             }
         }
         Ok(())
+    }
+
+    /// What they do in each step on so many nodes.
+    fn effects<const D: usize>(&self, nodes: u64) -> Effects {
+        let places: usize = self.loads.iter().map(|(_, _, places)| places.len()).sum();
+        Effects {
+            damped_nodes: self.rates as u64 * nodes,
+            loaded_places: places as u64 + (D * self.fields) as u64 * nodes,
+            kept_bytes: self.bytes,
+        }
     }
 
     /// Refuses a load none of whose nodes is free to follow it. Said once all effects are known: motions may come later.

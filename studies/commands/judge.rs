@@ -70,8 +70,18 @@ pub fn settings(written: &[String]) -> Result<Vec<Setting>, Refusal> {
 }
 
 /// Names that shipped commands write to.
-const RESERVED: [&str; 9] =
-    ["dispersion", "bar", "convergence", "dsif", "cost", "stability", "statics", "fracture", "hybrid"];
+const RESERVED: [&str; 10] = [
+    "dispersion",
+    "bar",
+    "bench",
+    "convergence",
+    "dsif",
+    "cost",
+    "stability",
+    "statics",
+    "fracture",
+    "hybrid",
+];
 
 fn read_files(files: &[PathBuf], kind: Option<Kind>, settings: &[Setting]) -> Result<Vec<Group>, Refusal> {
     let mut groups: Vec<Group> = Vec::new();

@@ -1,5 +1,6 @@
 //! What each command does.
 
+pub mod bench;
 pub mod explain;
 mod find;
 pub mod judge;

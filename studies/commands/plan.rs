@@ -2,13 +2,16 @@
 
 use super::find::find;
 use super::judge::settings;
-use super::scene_lines::{SceneLines, is_at_rest};
+use super::scene_lines::{SceneLines, is_at_rest, seconds};
+use crate::bench::kept::{self, Kept};
 use crate::input::Refusal;
 use crate::question::{Effort, Planned, Profile};
 use crate::scene::effects;
 use crate::study::{Case, Study};
-use serde_json::json;
+use pd_verify::plan::time::Costs;
+use serde_json::{Value, json};
 use std::fmt::Display;
+use std::path::Path;
 
 /// A case as planned.
 struct Row<'a> {
@@ -19,20 +22,31 @@ struct Row<'a> {
 }
 
 /// The plan as text.
-pub fn plan(study: &str, as_json: bool, profile: Profile, set: &[String]) -> Result<String, Refusal> {
+pub fn plan(
+    study: &str,
+    as_json: bool,
+    profile: Profile,
+    set: &[String],
+    out: &Path,
+) -> Result<String, Refusal> {
     let study = find(study, &settings(set)?)?;
-    Ok(planned(&study, as_json, profile))
+    let measured = kept::read(out)?;
+    Ok(planned(&study, as_json, profile, measured.as_ref()))
 }
 
-fn planned(study: &Study, as_json: bool, profile: Profile) -> String {
+fn planned(study: &Study, as_json: bool, profile: Profile, measured: Option<&Kept>) -> String {
     let rows: Vec<Row> = study.cases.iter().map(|case| row_of(case, profile)).collect();
     let mut total = Effort::default();
     rows.iter().filter(|row| row.runs).for_each(|row| total += row.effort);
-    if as_json { as_data(study, profile, &rows, total) } else { as_text(study, profile, &rows, total) }
+    match as_json {
+        true => as_data(study, profile, &rows, total, measured),
+        false => as_text(study, profile, &rows, total, measured),
+    }
 }
 
-fn as_text(study: &Study, profile: Profile, rows: &[Row], total: Effort) -> String {
-    let mut text = format!("{}: {}\nprofile {profile}; {}\n\n", study.id, study.title, marched(rows));
+fn as_text(study: &Study, profile: Profile, rows: &[Row], total: Effort, measured: Option<&Kept>) -> String {
+    let mut text = format!("{}: {}\nprofile {profile}; {}\n", study.id, study.title, marched(rows));
+    text += &(time(rows, measured) + "\n");
     text += &line([
         "case",
         "asks",
@@ -53,7 +67,7 @@ fn as_text(study: &Study, profile: Profile, rows: &[Row], total: Effort) -> Stri
     }
     text += &line(cells("total", "", "", &total));
     text += "\n";
-    let mut lines = SceneLines::default();
+    let mut lines = SceneLines::with(measured.map(|measured| &measured.costs));
     for row in rows.iter().filter(|row| !row.scenes.is_empty()) {
         let skipped = if row.runs { String::new() } else { format!(", from profile {}", row.case.profile) };
         text += &format!("\n{}: {}{skipped}\n", row.case.place.case, counted(row.scenes.len()));
@@ -67,7 +81,13 @@ fn row_of(case: &Case, profile: Profile) -> Row<'_> {
     Row { case, runs: case.profile <= profile, effort: case.question.effort(), scenes }
 }
 
-fn as_data(study: &Study, profile: Profile, rows: &[Row], total: Effort) -> String {
+fn as_data(study: &Study, profile: Profile, rows: &[Row], total: Effort, measured: Option<&Kept>) -> String {
+    let costs = measured.map(|measured| &measured.costs);
+    let scene = |scene: &Planned| {
+        let mut value = json!(scene);
+        value["predicted_seconds"] = json!(seconds(costs, scene));
+        value
+    };
     let entry = |row: &Row| {
         json!({
             "case": row.case.place.case,
@@ -75,12 +95,43 @@ fn as_data(study: &Study, profile: Profile, rows: &[Row], total: Effort) -> Stri
             "runs": row.runs,
             "claims": row.case.claims().len(),
             "effort": row.effort,
-            "scenes": row.scenes,
+            "scenes": row.scenes.iter().map(scene).collect::<Vec<Value>>(),
         })
     };
     let cases: Vec<_> = rows.iter().map(entry).collect();
-    let plan = json!({ "study": study.id, "profile": profile.to_string(), "cases": cases, "total": total });
+    let plan = json!({
+        "study": study.id,
+        "profile": profile.to_string(),
+        "cases": cases,
+        "total": total,
+        "predicted_seconds": costs.map(|costs| in_all(rows, costs)),
+        "predicted_with": measured.map(|measured| json!({
+            "isa": measured.isa, "threads": measured.threads, "cpu": measured.cpu,
+        })),
+    });
     serde_json::to_string_pretty(&plan).expect("plain data") + "\n"
+}
+
+/// How long marching takes by what `bench` has measured, in a line; no line where nothing is marched.
+fn time(rows: &[Row], measured: Option<&Kept>) -> String {
+    if run(rows).all(is_at_rest) {
+        return String::new();
+    }
+    let Some(Kept { isa, threads, cpu, costs }) = measured else {
+        return "time to march: unknown: run pd-verify bench\n".to_owned();
+    };
+    let threads = if *threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
+    format!("time to march: {:.3} s, as measured with {isa} on {threads} of {cpu}\n", in_all(rows, costs))
+}
+
+/// Seconds that marching takes in all cases that run.
+fn in_all(rows: &[Row], costs: &Costs) -> f64 {
+    run(rows).filter_map(|scene| seconds(Some(costs), scene)).sum()
+}
+
+/// The scenes of the cases that run.
+fn run<'a>(rows: &'a [Row]) -> impl Iterator<Item = &'a Planned> {
+    rows.iter().filter(|row| row.runs).flat_map(|row| &row.scenes)
 }
 
 /// What the cases march in time and what they find at rest, in words.
@@ -88,9 +139,8 @@ fn marched(rows: &[Row]) -> String {
     if rows.iter().all(|row| row.scenes.is_empty()) {
         return "nothing is marched in time: waves are evaluated, effects are off".to_owned();
     }
-    let run = || rows.iter().filter(|row| row.runs).flat_map(|row| &row.scenes);
-    let at_rest = run().filter(|scene| is_at_rest(scene)).count();
-    let parts = match (run().count() - at_rest, at_rest) {
+    let at_rest = run(rows).filter(|scene| is_at_rest(scene)).count();
+    let parts = match (run(rows).count() - at_rest, at_rest) {
         (marched, 0) => vec![format!("{} to march in time", counted(marched))],
         (0, at_rest) => vec![format!("{} to find at rest", counted(at_rest))],
         (marched, at_rest) => {
@@ -131,6 +181,8 @@ mod tests {
     use crate::shipped::SHIPPED;
     use crate::subject::Subject;
     use pd_verify::claim::Claim;
+    use pd_verify::plan::time::BodyCosts;
+    use pd_verify::plan::work::{Kinds, Work};
 
     /// A question that marches one scene.
     struct Marching;
@@ -158,6 +210,7 @@ mod tests {
                 node_updates: 2_000_000,
                 bond_updates: 6_000_000,
                 steps_per_cell: None,
+                work: work(),
             }]
         }
 
@@ -170,24 +223,57 @@ mod tests {
         }
     }
 
+    /// 1000 nodes of a bar with 3 pairs each.
+    fn work() -> Work {
+        let kinds = Kinds { whole_nodes: 1000, ..Kinds::default() };
+        Work { dimension: 1, pairs: 3, kinds, ..Work::default() }
+    }
+
+    /// A step takes 0.5 ms, a node of it 1 µs: 2000 steps take 3 s.
+    #[test]
+    fn marching_takes_as_long_as_it_was_measured_to_take() {
+        let bar = BodyCosts {
+            step_s: 0.5e-3,
+            whole_by_pairs: vec![(3.0, 1e-6)],
+            by_nodes: vec![(1000.0, 1.0)],
+            ..BodyCosts::default()
+        };
+        let costs = Costs { bar, ..Costs::default() };
+        let kept = Kept { isa: "avx2".into(), threads: 4, cpu: "a".into(), costs };
+        let (name, text) = SHIPPED[0];
+        let (mut study, _) = Study::read(name, text, &[]).unwrap();
+        study.cases.truncate(2);
+        study.cases[1].question = Box::new(Marching);
+        let text = planned(&study, false, Profile::Quick, Some(&kept));
+        assert!(text.contains("time to march: 3.000 s, as measured with avx2 on 4 threads of a\n"), "{text}");
+        let data: Value = serde_json::from_str(&planned(&study, true, Profile::Quick, Some(&kept))).unwrap();
+        for seconds in [&data["predicted_seconds"], &data["cases"][1]["scenes"][0]["predicted_seconds"]] {
+            assert!((seconds.as_f64().unwrap() - 3.0).abs() < 1e-12, "{seconds}");
+        }
+        assert_eq!(data["predicted_with"], json!({ "isa": "avx2", "threads": 4, "cpu": "a" }));
+    }
+
     #[test]
     fn what_is_marched_is_shown_and_counted() {
         let (name, text) = SHIPPED[0];
         let (mut study, _) = Study::read(name, text, &[]).unwrap();
         study.cases.truncate(2);
         let nothing = "nothing is marched in time";
-        assert!(planned(&study, false, Profile::Quick).contains(nothing));
+        assert!(planned(&study, false, Profile::Quick, None).contains(nothing));
         study.cases[1].question = Box::new(Marching);
-        let text = planned(&study, false, Profile::Quick);
+        let text = planned(&study, false, Profile::Quick, None);
         assert!(!text.contains(nothing), "{text}");
         for word in ["1 scene to march", "node updates", " 2000000 ", "effects off: damage", "half families"]
         {
             assert!(text.contains(word), "no {word}: {text}");
         }
-        let data: serde_json::Value = serde_json::from_str(&planned(&study, true, Profile::Quick)).unwrap();
+        let data: serde_json::Value =
+            serde_json::from_str(&planned(&study, true, Profile::Quick, None)).unwrap();
         assert_eq!(data["cases"][0]["scenes"], json!([]));
         assert_eq!(data["cases"][1]["scenes"][0]["steps"], 2000);
         assert_eq!(data["total"]["node_updates"], 2_000_000);
+        assert!(text.contains("unknown: run pd-verify bench"), "{text}");
+        assert!(data["predicted_seconds"].is_null() && data["predicted_with"].is_null());
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What a case marches in time, scene by scene, as lines of `pd-verify plan`.
 
 use crate::question::Planned;
+use pd_verify::plan::time::Costs;
 
 /// More lines than this about one case are not read by anybody.
 const MOST: usize = 20;
@@ -18,16 +19,23 @@ const WIDEST: usize = 60;
 enum Line<'a> {
     Text(String),
     Columns,
-    Scene(&'a Planned),
+    /// And the seconds it takes, where they are known.
+    Scene(&'a Planned, Option<f64>),
 }
 
 /// Writes case after case, and remembers which effects it has told last.
 #[derive(Default)]
-pub struct SceneLines {
+pub struct SceneLines<'c> {
     told: Option<[Vec<String>; 2]>,
+    costs: Option<&'c Costs>,
 }
 
-impl SceneLines {
+impl<'c> SceneLines<'c> {
+    /// With times by these costs.
+    pub fn with(costs: Option<&'c Costs>) -> Self {
+        Self { told: None, costs }
+    }
+
     /// The scenes of a case, those alike under one heading; what does not fit is counted.
     pub fn of_case(&mut self, scenes: &[Planned]) -> String {
         let mut lines = Vec::new();
@@ -42,7 +50,7 @@ impl SceneLines {
                 if lines.len() >= MOST && scene != alike.first {
                     break;
                 }
-                lines.push(Line::Scene(scene));
+                lines.push(Line::Scene(scene, seconds(self.costs, scene)));
                 shown.push(scene);
             }
         }
@@ -95,13 +103,22 @@ impl Line<'_> {
         match self {
             Self::Text(text) => text.clone(),
             Self::Columns => format!(
-                "    {:<width$} {:>11} {:>12} {:>10} {:>11} {:>8} {:>10} {:>15}",
-                "scene", "nodes", "bonds", "bytes/node", "Δt in s", "Δt/limit", "steps", "node updates"
+                "    {:<width$} {:>11} {:>12} {:>10} {:>11} {:>8} {:>10} {:>15} {:>10}",
+                "scene",
+                "nodes",
+                "bonds",
+                "bytes/node",
+                "Δt in s",
+                "Δt/limit",
+                "steps",
+                "node updates",
+                "time in s"
             ),
-            Self::Scene(scene) => {
+            Self::Scene(scene, seconds) => {
                 let [step, over_limit, steps, updates] = in_time(scene);
+                let time = seconds.map_or("-".into(), |seconds| format!("{seconds:.3}"));
                 format!(
-                    "    {:<width$} {:>11} {:>12} {:>10.1} {step:>11} {over_limit:>8} {steps:>10} {updates:>15}",
+                    "    {:<width$} {:>11} {:>12} {:>10.1} {step:>11} {over_limit:>8} {steps:>10} {updates:>15} {time:>10}",
                     cut(&scene.name, width),
                     scene.nodes,
                     scene.bonds,
@@ -123,6 +140,12 @@ fn in_time(scene: &Planned) -> [String; 4] {
         scene.steps.to_string(),
         scene.node_updates.to_string(),
     ]
+}
+
+/// Seconds that marching a scene takes; `None` where costs are unknown, and for a body at rest.
+pub fn seconds(costs: Option<&Costs>, scene: &Planned) -> Option<f64> {
+    let steps = (!is_at_rest(scene)).then_some(scene.steps as f64)?;
+    Some(steps * costs?.of_step(&scene.work)?)
 }
 
 /// Whether a scene is found at rest instead of being marched.
@@ -162,6 +185,7 @@ fn listed(effects: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pd_verify::plan::work::Work;
 
     fn scene(number: usize, operator: &str) -> Planned {
         Planned {
@@ -181,6 +205,7 @@ mod tests {
             node_updates: 4_000_000,
             bond_updates: 12_000_000,
             steps_per_cell: None,
+            work: Work::default(),
         }
     }
 
@@ -223,7 +248,7 @@ mod tests {
         let text = SceneLines::default().of_case(&[scene(2, "half"), at_rest]);
         let words: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
         let row = words.iter().find(|words| words.starts_with(&["m", "=", "1"])).unwrap();
-        assert_eq!(row[3..], ["1000", "3000", "56.0", "at", "rest", "-", "-", "-"], "{text}");
+        assert_eq!(row[3..], ["1000", "3000", "56.0", "at", "rest", "-", "-", "-", "-"], "{text}");
         let widths: Vec<usize> = text.lines().skip(3).map(|line| line.chars().count()).collect();
         assert!(widths.windows(2).all(|pair| pair[0] == pair[1]), "{text}");
     }

@@ -5,7 +5,7 @@ use crate::wrong::{Way, spoilt};
 use pd_verify::constraints::Edge::{self, Free, MirrorEven, MirrorOdd, Periodic};
 use pd_verify::constraints::Edges;
 use pd_verify::forces::surface::Correction;
-use pd_verify::forces::{BodyForce, Traction};
+use pd_verify::forces::{BodyForce, Damping, Traction};
 use pd_verify::model::Model;
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::plan::Plan;
@@ -104,4 +104,28 @@ fn costs_of_a_bar_and_a_plate_by_hand() {
     assert_eq!((plan.bytes_per_node * 30.0).round() as usize, fields + runs * 24 + lines * 64);
     let mirrored = Scene { edges: Edges([[Edge::MirrorOdd; 2]]), ..bar };
     assert_eq!(Plan::of(&mirrored).unwrap().bonds, 20);
+}
+
+/// By hand. The same plate: 12 nodes with 8 bonds each, 18 that share the other 178 − 96 ends; 31 operations for a node
+/// with all bonds, 11 for an end of one that lacks some, 6 to move it, 4 to damp it, 1 for each place that is loaded.
+#[test]
+fn what_a_step_does_by_hand() {
+    let plate = scene::<2>(constant(1.5, VolumeRule::Full, false), [6, 5]);
+    let work = |scene: &Scene<2>| Plan::of(scene).unwrap().work;
+    let free = work(&plate);
+    assert_eq!((free.kinds.whole_nodes, free.kinds.masked_nodes, free.kinds.masked_ends), (12, 18, 82));
+    assert_eq!((free.pairs, free.kinds.listed_nodes, free.kinds.breaking_nodes), (4, 0, 0));
+    assert_eq!(free.flops_per_step, (12 * 31 + 82 * 11 + 30 * 6) as f64);
+    // 32 bytes for each component, 16 for each of 3 runs, 40 for each mask.
+    assert_eq!(free.bytes_per_step(1), (30 * 64 + 3 * 16 + 18 * 40) as f64);
+    assert_eq!(free.bytes_per_step(4), (30 * 16 + 3 * 16 + 18 * 40) as f64);
+    let listed = work(&Scene { operator: Operator::Bonds, ..plate.clone() });
+    assert_eq!((listed.kinds.listed_nodes, listed.kinds.listed_ends), (30, 178));
+    assert_eq!(listed.flops_per_step, (178 * 11 + 30 * 6) as f64);
+    let step = json!({ "shape": "step" });
+    let pull = json!({ "edge": "top", "axis": "y", "stress_pa": 1e6, "history": step });
+    let effects = vec![effect::<2, Traction>(pull), effect::<2, Damping>(json!({ "rate_per_s": 1.0 }))];
+    let loaded = work(&Scene { effects, ..plate });
+    assert_eq!((loaded.loaded_places, loaded.damped_nodes), (6, 30));
+    assert_eq!(loaded.flops_per_step, free.flops_per_step + 6.0 + 30.0 * 8.0);
 }

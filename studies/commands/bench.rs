@@ -1,0 +1,222 @@
+//! `pd-verify bench`: the whole suite of speeds, or one case, beside the machine's own limits.
+
+use super::judge::End;
+use super::say;
+use crate::attachment::Attachment;
+use crate::bench::cases::{Case, Group, M, SIDE, suite};
+use crate::bench::forecast::forecasts;
+use crate::bench::kept::{FOLDER, Suite, one};
+use crate::bench::limits::Limits;
+use crate::bench::measure::{Failure, Measured, Pace, Pools, measure};
+use crate::bench::rates::Rates;
+use crate::bench::{bodies, costs, figures, memory, text};
+use crate::cli::{BenchOptions, BondOperator, Isa};
+use crate::input::Refusal;
+use crate::manifest::Manifest;
+use crate::output::Output;
+use crate::progress::{Progress, interrupted};
+use pd_verify::report::{Drawn, figure_table};
+use pd_verify::scene::{Operator, Scene};
+use serde_json::Value;
+use std::io::{self, Write};
+
+/// Rounds of the suite and seconds of a case in each.
+const SUITE: Pace = Pace { rounds: 5, seconds: 0.08, steps: None };
+/// What is held against predictions.
+const CHECK: Pace = Pace { rounds: 3, seconds: 0.08, steps: None };
+/// A case alone.
+const ALONE: Pace = Pace { rounds: 7, seconds: 0.2, steps: None };
+
+/// The families of larger plates are not run.
+const LARGEST_M: f64 = 200.0;
+
+/// Runs the suite, or the one case that the options name.
+pub fn bench(options: &BenchOptions) -> Result<u8, Refusal> {
+    let isa = instruction_set(options.isa)?;
+    let alone = options.nodes.is_some()
+        || options.m.is_some()
+        || options.steps.is_some()
+        || options.operator.is_some();
+    if alone {
+        let case = case(options)?;
+        return one_case(case, isa, options);
+    }
+    let output = Output::open(&options.out, &[FOLDER.to_owned()])?;
+    whole_suite(isa, options, &output)
+}
+
+/// The one that is asked for, or the best that is here.
+fn instruction_set(asked: Option<Isa>) -> Result<Isa, Refusal> {
+    match asked {
+        Some(isa) if !isa.is_here() => {
+            Err(Refusal::new(format!("this processor does not have --isa {}", isa.word()))
+                .help("leave --isa out to use the best that is here"))
+        }
+        Some(isa) => Ok(isa),
+        None => Ok([Isa::Avx512, Isa::Avx2].into_iter().find(|isa| isa.is_here()).unwrap_or(Isa::Baseline)),
+    }
+}
+
+fn pools(options: &BenchOptions) -> Result<Pools, Refusal> {
+    let pool = |threads: usize| {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|error| {
+            Refusal::new(format!("cannot start threads: {error}")).help("take fewer with --threads")
+        })
+    };
+    Ok(Pools { all: pool(options.threads.map_or(0, usize::from))?, one: pool(1)? })
+}
+
+/// The plate that is asked for, refused before anything large is made.
+fn case(options: &BenchOptions) -> Result<Case, Refusal> {
+    let (side, m) = (options.nodes.unwrap_or(SIDE as u32) as usize, options.m.unwrap_or(M));
+    if m > LARGEST_M {
+        return Err(Refusal::new(format!("m = {m} is more than the {LARGEST_M} that are run"))
+            .help(format!("take --m {LARGEST_M} or less")));
+    }
+    if m > side as f64 {
+        return Err(Refusal::new(format!(
+            "the horizon of {m} spacings is larger than the plate of {side}² nodes"
+        ))
+        .help("take more --nodes, or a smaller --m"));
+    }
+    let operator = match options.operator {
+        Some(BondOperator::Bonds) => Operator::Bonds,
+        _ => Operator::Stencil,
+    };
+    let case = Case::new(format!("{side}² nodes"), Scene { operator, ..bodies::plate([side; 2], m) });
+    let plan = case.body.plan().map_err(|wrong| Refusal::new(wrong.message).help(wrong.help))?;
+    let (needed, free) = (memory::needed(&plan), memory::available());
+    if let Some(free) = free.filter(|free| needed > *free) {
+        let message = format!(
+            "a plate of {side}² nodes with m = {m} takes {:.1} GB to make and march, and {:.1} GB are free",
+            needed / 1e9,
+            free / 1e9
+        );
+        return Err(Refusal::new(message).help("take fewer --nodes, a smaller --m, or --operator stencil"));
+    }
+    Ok(case)
+}
+
+fn one_case(case: Case, isa: Isa, options: &BenchOptions) -> Result<u8, Refusal> {
+    let pools = pools(options)?;
+    let limits = pools.all.install(|| Limits::measure(isa));
+    // Steps that are given are run once.
+    let pace = match options.steps {
+        Some(steps) => Pace { rounds: 1, steps: Some(steps), ..ALONE },
+        None => ALONE,
+    };
+    let group = Group { name: "one case", cases: vec![case] };
+    let measured = match measure(&group, &pools, pace, &interrupted) {
+        Ok(measured) => measured,
+        Err(failure) => return ended(failure),
+    };
+    let limits = limits.or_better(&pools.all.install(|| Limits::measure(isa)));
+    let rates = Rates::of(group.name, isa, &measured[0], &measured[0], &limits);
+    let text = match options.json {
+        true => pretty(&one(&rates, &limits)),
+        false => text::limits(&limits, isa.word()) + &text::one(&rates),
+    };
+    Ok(printed(&text, Vec::new()))
+}
+
+fn whole_suite(isa: Isa, options: &BenchOptions, output: &Output) -> Result<u8, Refusal> {
+    let pools = pools(options)?;
+    let threads = pools.all.current_num_threads();
+    let groups = suite(threads);
+    let progress = Progress::new(groups.len() + 2, !options.no_progress);
+    progress.at("limits");
+    let of_all = || pools.all.install(|| Limits::measure(isa));
+    let (mut limits, limits_alone) = (of_all(), pools.one.install(|| Limits::measure(isa)));
+    progress.step();
+    let mut groups_measured = Vec::new();
+    for group in &groups {
+        progress.at(group.name);
+        let (group, left_out) = memory::fitting(group);
+        left_out.iter().for_each(|note| progress.note(note));
+        let measured = match measure(&group, &pools, SUITE, &interrupted) {
+            Ok(measured) => measured,
+            Err(failure) => return ended(failure),
+        };
+        groups_measured.push((group.name, measured));
+        limits = limits.or_better(&of_all());
+        progress.step();
+    }
+    let limit = |one: &Measured| if one.case.alone { &limits_alone } else { &limits };
+    let rates = |(group, measured): &(&'static str, Vec<Measured>)| -> Vec<Rates> {
+        measured.iter().map(|one| Rates::of(group, isa, one, &measured[0], limit(one))).collect()
+    };
+    let cases: Vec<Rates> = groups_measured.iter().flat_map(rates).collect();
+    progress.at("predictions");
+    let costs = costs::costs(&cases, threads);
+    let forecasts = match forecasts(&costs, &pools, CHECK, &interrupted) {
+        Ok(forecasts) => forecasts,
+        Err(failure) => return ended(failure),
+    };
+    progress.finish();
+    let suite = Suite { limits, cases, costs, forecasts };
+    let data = pretty(&suite.json());
+    let problems = written(&suite, &data, isa, options, output);
+    let text = if options.json { data } else { as_text(&suite, &limits_alone, isa) };
+    Ok(printed(&text, problems))
+}
+
+fn as_text(suite: &Suite, alone: &Limits, isa: Isa) -> String {
+    let mut text = text::limits(&suite.limits, isa.word());
+    if suite.limits.threads > 1 {
+        text += &text::limits(alone, isa.word());
+    }
+    text + &text::cases(&suite.cases) + &text::forecasts(&suite.forecasts)
+}
+
+fn pretty(value: &Value) -> String {
+    serde_json::to_string_pretty(value).expect("plain data") + "\n"
+}
+
+/// Writes the folder; returns what went wrong.
+fn written(suite: &Suite, data: &str, isa: Isa, options: &BenchOptions, output: &Output) -> Vec<String> {
+    let mut problems = Vec::new();
+    let manifest = Manifest::of_this_run(
+        "standard".into(),
+        Vec::new(),
+        options.isa.map(|_| isa.word().into()),
+        Vec::new(),
+    );
+    let table = suite.table();
+    let mut files = vec![
+        Attachment::text("manifest.json", manifest.json()),
+        Attachment::text("bench.json", data),
+        Attachment::text(table.file.clone(), table.csv()),
+    ];
+    for figure in figures::figures(&suite.cases) {
+        match Drawn::new(&figure) {
+            Ok(drawn) => files.push(Attachment::text(format!("{}.svg", drawn.id), drawn.svg)),
+            Err(error) => problems.push(format!("figure {}: {error}", figure.id)),
+        }
+        let data = figure_table(&figure);
+        files.push(Attachment::text(data.file.clone(), data.csv()));
+    }
+    if let Err(error) = output.replace_folder(FOLDER, &files) {
+        problems.push(format!("cannot write the results: {error}"));
+    }
+    problems
+}
+
+fn printed(text: &str, mut problems: Vec<String>) -> u8 {
+    if let Err(error) = say(text) {
+        problems.push(format!("cannot print: {error}"));
+    }
+    for problem in &problems {
+        let _ = writeln!(io::stderr(), "error: {problem}");
+    }
+    if problems.is_empty() { 0 } else { End::Computation.code() }
+}
+
+fn ended(failure: Failure) -> Result<u8, Refusal> {
+    let (end, message) = match failure {
+        Failure::Wrong(wrong) => return Err(Refusal::new(wrong.message).help(wrong.help)),
+        Failure::Diverged(case) => (End::Computation, format!("error: \"{case}\" grew without bound")),
+        Failure::Interrupted => (End::Interrupted, "interrupted: nothing is written".to_owned()),
+    };
+    let _ = writeln!(io::stderr(), "{message}");
+    Ok(end.code())
+}
