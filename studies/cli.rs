@@ -2,6 +2,7 @@
 
 use crate::question::Profile;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use pd_verify::simd::{self, InstructionSet};
 use std::path::PathBuf;
 
 /// Verification of peridynamics: exact answers, stated tolerances, verdicts that can fail.
@@ -110,7 +111,7 @@ pub struct RunOptions {
     /// Threads to use; results do not depend on it
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Instruction set; the best here if not given (waves have one code for all)
+    /// Instruction set of the solver; the best here if not given (waves have one code for all)
     #[arg(long, value_enum)]
     pub isa: Option<Isa>,
     /// Inconclusive counts as failing
@@ -181,19 +182,24 @@ impl Isa {
         }
     }
 
+    /// The same to the solver.
+    pub fn set(self) -> InstructionSet {
+        match self {
+            Self::Baseline => InstructionSet::Baseline,
+            Self::Avx2 => InstructionSet::Avx2,
+            Self::Avx512 => InstructionSet::Avx512,
+        }
+    }
+
     /// Whether this processor has it.
     pub fn is_here(self) -> bool {
-        #[cfg(target_arch = "x86_64")]
-        {
-            match self {
-                Self::Baseline => true,
-                Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
-                Self::Avx512 => is_x86_feature_detected!("avx512f"),
-            }
-        }
-        #[cfg(not(target_arch = "x86_64"))]
-        {
-            self == Self::Baseline
+        self.set().is_here()
+    }
+
+    /// Makes it the one of all models of this process.
+    pub fn pin(self) {
+        if let Some(isa) = simd::Isa::of(self.set()) {
+            isa.pin();
         }
     }
 }

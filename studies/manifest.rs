@@ -1,5 +1,6 @@
 //! Under which circumstances a result was made: version, commit, compiler, machine, command line, study files.
 
+use pd_verify::simd::Isa;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::time::SystemTime;
@@ -54,7 +55,7 @@ impl Manifest {
             git_modified: known(env!("PD_VERIFY_MODIFIED")).map(|text| text == "true"),
             rustc: env!("PD_VERIFY_RUSTC"),
             target: env!("PD_VERIFY_TARGET"),
-            instruction_set: "baseline",
+            instruction_set: Isa::chosen().set().name(),
             instruction_set_asked: isa,
             cpu: cpu_model(),
             threads: rayon::current_num_threads(),

@@ -24,7 +24,7 @@ use schedule::Schedule;
 use shared::Shared;
 
 /// Steps of a pass, at most: with more the fields of neighbouring pieces no longer stay in a core's cache.
-pub const STEPS_PER_PASS: usize = 4;
+const STEPS_PER_PASS: usize = 4;
 
 /// Nodes for which it is worth waking another thread.
 const WORTH_A_THREAD: usize = 4096;
@@ -227,10 +227,16 @@ impl<'m, const D: usize> March<'m, D> {
         rayon::scope(|_| self.pass_to(step));
     }
 
+    /// Steps of a pass over the body where nothing looks at it for as many: one where bonds may break, or where its first
+    /// rows follow its last.
+    pub fn steps_per_pass(&self) -> usize {
+        let one = self.model.breaking.is_some() || self.model.edges.repeats_pieces();
+        if one { 1 } else { STEPS_PER_PASS }
+    }
+
     /// Pass after pass.
     fn pass_to(&mut self, step: u64) {
-        let one = self.model.breaking.is_some() || self.model.edges.repeats_pieces();
-        let most = if one { 1 } else { STEPS_PER_PASS };
+        let most = self.steps_per_pass();
         while self.step < step {
             let left = usize::try_from(step - self.step).unwrap_or(most);
             self.pass(left.min(most));

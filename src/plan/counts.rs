@@ -34,8 +34,9 @@ pub struct Counts {
 struct Served {
     nodes: usize,
     ends: u64,
-    /// Runs of nodes that have all their bonds.
+    /// Runs of nodes that have all their bonds, and how many such nodes.
     runs: usize,
+    whole: usize,
     /// Runs of nodes that lack some, and the nodes in the blocks of these runs.
     masked_runs: usize,
     padded: usize,
@@ -155,7 +156,9 @@ fn by_nodes<const D: usize>(
             served.band_ends += ends as u64;
         }
     }
-    served.runs = grid.runs(|node| whole[grid.number(node)]).iter().map(Vec::len).sum();
+    let runs = grid.runs(|node| whole[grid.number(node)]);
+    served.runs = runs.iter().map(Vec::len).sum();
+    served.whole = runs.iter().flatten().map(|run| run.len).sum();
     let runs = grid.runs(|node| masked[grid.number(node)]);
     served.masked_runs = runs.iter().map(Vec::len).sum();
     served.padded = runs.into_iter().flatten().map(LatticeStencil::<D, Small>::padded).sum();
@@ -199,6 +202,7 @@ fn by_sizes<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>, grid: &Grid<
         nodes: grid.count(),
         ends: both.map(ends).sum(),
         runs,
+        whole: whole.iter().product(),
         masked_runs: with * sides.0 + without * rest.0,
         padded: with * sides.1 + without * rest.1,
         ..Served::default()

@@ -79,13 +79,8 @@ impl<const D: usize> Goes for Going<'_, D> {
     }
 
     fn steps_per_pass(&self) -> u64 {
-        if self.ledger.is_some() { 1 } else { steps_per_pass(self.march.model()) }
+        if self.ledger.is_some() { 1 } else { self.march.steps_per_pass() as u64 }
     }
-}
-
-/// The one place that knows how many steps a pass over the body takes.
-fn steps_per_pass<const D: usize>(_: &Model<D>) -> u64 {
-    1
 }
 
 enum Made {

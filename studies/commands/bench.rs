@@ -33,6 +33,7 @@ const LARGEST_M: f64 = 200.0;
 /// Runs the suite, or the one case that the options name.
 pub fn bench(options: &BenchOptions) -> Result<u8, Refusal> {
     let isa = instruction_set(options.isa)?;
+    isa.pin();
     let alone = options.nodes.is_some()
         || options.m.is_some()
         || options.steps.is_some()

@@ -137,6 +137,9 @@ fn compute(groups: Vec<Group>, options: &RunOptions) -> Result<End, Refusal> {
         return Err(Refusal::new(format!("this processor does not have --isa {}", isa.word()))
             .help("leave --isa out to use the best that is here"));
     }
+    if let Some(isa) = options.isa {
+        isa.pin();
+    }
     check_work(&groups, options)?;
     let folders: Vec<String> = groups.iter().map(|group| group.folder.clone()).collect();
     let output = Output::open(&options.out, &folders)?;

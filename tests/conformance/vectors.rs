@@ -17,13 +17,12 @@ fn on<const D: usize>(scene: &Scene<D>, isa: Isa) -> Model<D> {
 
 /// One family for each kernel of the stencil: those of registers, those of memory, and one too long for either.
 fn plates() -> Vec<Scene<2>> {
-    let families =
-        [1.5, 2.0, 2.4, 2.8, 3.0, 3.2, 3.7, 3.9, 4.0, 4.5, 5.0, 6.5, 9.0].map(|m| (m, VolumeRule::Linear));
-    let full = [3.0, 4.0, 4.2].map(|m| (m, VolumeRule::Full));
-    let exact = [2.0, 3.0, 3.6, 4.4].map(|m| (m, VolumeRule::ExactArea));
+    let families = [1.5, 2.0, 2.4, 3.0, 3.2, 3.7, 4.0, 5.0, 9.0].map(|m| (m, VolumeRule::Linear));
+    let full = [2.0, 3.0, 4.0].map(|m| (m, VolumeRule::Full));
+    let exact = [1.7, 3.6, 4.4].map(|m| (m, VolumeRule::ExactArea));
     let mut all = Vec::new();
-    for (m, rule) in families.into_iter().chain(full).chain(exact).chain([(66.0, VolumeRule::Full)]) {
-        let nodes = if m > 60.0 { [140, 70] } else { [277, 27] };
+    for (m, rule) in families.into_iter().chain(full).chain(exact).chain([(48.0, VolumeRule::Full)]) {
+        let nodes = if m > 40.0 { [101, 49] } else { [277, 27] };
         let plain = scene::<2>(constant(m, rule, false), nodes);
         let dx = plain.spacing;
         let mirrors = Edges([[Edge::MirrorOdd, Edge::Free], [Edge::Free, Edge::MirrorOdd]]);
@@ -44,7 +43,7 @@ fn hold<const D: usize>(scenes: Vec<Scene<D>>) -> usize {
     let mut compared = 0;
     for scene in scenes {
         for rotations in [Rotations::Small, Rotations::Finite] {
-            if rotations == Rotations::Finite && scene.lattice.m > 5.0 {
+            if rotations == Rotations::Finite && scene.lattice.m > 4.0 {
                 continue;
             }
             let scene = Scene { rotations, ..scene.clone() };
@@ -60,7 +59,7 @@ fn hold<const D: usize>(scenes: Vec<Scene<D>>) -> usize {
                     same_bits(&what, &f, &expected).unwrap();
                     compared += 1;
                 }
-                if scene.lattice.m < 60.0 {
+                if scene.lattice.m < 40.0 {
                     agreement(&scene, &own, &list).unwrap_or_else(|wrong| panic!("{}: {wrong}", scene.name));
                 }
             }
