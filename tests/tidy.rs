@@ -65,6 +65,33 @@ fn the_library_sees_no_answer_no_study_no_file_and_does_not_print() {
     assert_eq!(offenders("src", &forbidden), Vec::<String>::new());
 }
 
+/// What must promise more than the compiler can see says so in few places, each with its reason.
+#[test]
+fn unsafe_code_stays_where_it_pays() {
+    let allowed = [
+        "src/simd/",
+        "src/forces/sink.rs",
+        "src/forces/breakable.rs",
+        "src/forces/stencil/",
+        "src/march/pass.rs",
+        "src/march/shared.rs",
+        "studies/bench/fma.rs",
+        "studies/bench/triad.rs",
+    ];
+    let mut found = 0;
+    for path in ["src", "studies", "reference/src"].into_iter().flat_map(|folder| files(folder, "rs")) {
+        let within = path.strip_prefix(root()).unwrap().to_string_lossy().into_owned();
+        let code = code(&path);
+        if code.contains("unsafe ") {
+            found += 1;
+            assert!(allowed.iter().any(|place| within.starts_with(place)), "{within}: unsafe code");
+            let text = fs::read_to_string(&path).unwrap();
+            assert!(text.contains("SAFETY") || text.contains("# Safety"), "{within}: no reason given");
+        }
+    }
+    assert!(found > 5, "the check would be empty");
+}
+
 #[test]
 fn the_reference_cannot_see_the_solver() {
     let manifest = fs::read_to_string(root().join("reference/Cargo.toml")).unwrap();
