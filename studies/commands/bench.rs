@@ -21,7 +21,7 @@ use serde_json::Value;
 use std::io::{self, Write};
 
 /// Rounds of the suite and seconds of a case in each.
-const SUITE: Pace = Pace { rounds: 8, seconds: 0.05, steps: None };
+const SUITE: Pace = Pace { rounds: 6, seconds: 0.05, steps: None };
 /// What is held against predictions.
 const CHECK: Pace = Pace { rounds: 5, seconds: 0.05, steps: None };
 /// A case alone.
