@@ -134,7 +134,7 @@ pub struct BenchOptions {
     /// Its horizon over its spacing; 3 if not given
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub m: Option<f64>,
-    /// Steps to march, once; if not given as many as take a fifth of a second, seven times
+    /// Steps to march, once; if not given as many as take a tenth of a second, fifteen times
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000_000))]
     pub steps: Option<u64>,
     /// What serves its bonds; a stencil if not given

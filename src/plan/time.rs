@@ -30,7 +30,7 @@ pub struct BodyCosts {
     pub masked_end_s: f64,
     /// Of an end of a listed bond.
     pub listed_end_s: f64,
-    /// Of a node, for damping.
+    /// Of a node, for damping; like those below on a body of the size above, elsewhere times the same factor.
     pub damped_node_s: f64,
     /// Of a component of a node, for a load.
     pub loaded_place_s: f64,
@@ -53,15 +53,15 @@ impl BodyCosts {
             if work.finite_rotations { pairs * self.finite_pair_s } else { size * self.whole(pairs)? };
         // Bonds that may break are kept as masks or as lists; a bit more is asked of each.
         let breaking = if kinds.listed_ends > 0 { self.listed_end_s } else { self.masked_end_s };
-        let booked = if work.booked { self.booked_node_s } else { 0.0 };
+        let booked = if work.booked { size * self.booked_node_s } else { 0.0 };
         let terms = [
             (1, self.step_s),
             (kinds.whole_nodes, whole),
             (kinds.masked_ends, self.masked_end_s),
             (kinds.listed_ends, self.listed_end_s),
             (kinds.breaking_ends, breaking),
-            (work.damped_nodes, self.damped_node_s),
-            (work.loaded_places, self.loaded_place_s),
+            (work.damped_nodes, size * self.damped_node_s),
+            (work.loaded_places, size * self.loaded_place_s),
             (kinds.nodes(), booked),
         ];
         let seconds: f64 =
@@ -144,6 +144,9 @@ mod tests {
         assert_eq!(of(plain), bonds);
         assert_eq!(of(Work { damped_nodes: 10, loaded_places: 8, ..plain }), bonds + 5.0 + 6.0);
         assert_eq!(of(Work { booked: true, ..plain }), bonds + 10_000.0 * 5.0);
+        // 10⁶ nodes cost twice as much each.
+        let large = Work { damped_nodes: 1_000_000, loaded_places: 4, ..work(1_000_000, 10) };
+        assert_eq!(of(large), 100.0 + 1e6 * 2.0 * (2.0 + 0.5) + 4.0 * 2.0 * 0.75);
         let finite = Work { finite_rotations: true, ..work(10_000, 10) };
         assert_eq!(of(finite), 100.0 + 1e4 * 10.0 * 0.25);
         let breaking = Kinds { breaking_nodes: 1, breaking_ends: 8, whole_nodes: 9_999, ..Kinds::default() };

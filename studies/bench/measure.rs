@@ -130,6 +130,8 @@ pub fn measure(
         let pool = pools.of(case);
         let mut body = pool.install(|| made.going(&case.body, &plan));
         let steps_per_pass = body.steps_per_pass();
+        // A pass that is not counted warms caches and threads up.
+        rate(pool, &mut *body, steps_per_pass);
         let steps = pace.steps.unwrap_or_else(|| enough(pool, &mut *body, pace.seconds));
         let (rates, ratios) = (Vec::new(), Vec::new());
         let threads = pool.current_num_threads();
@@ -159,7 +161,7 @@ fn rate(pool: &ThreadPool, body: &mut dyn Goes, steps: u64) -> f64 {
     steps as f64 / start.elapsed().as_secs_f64()
 }
 
-/// Steps that take so many seconds, whole passes and two of them at least; warms the machine up to find out.
+/// Steps that take so many seconds, whole passes and two of them at least.
 fn enough(pool: &ThreadPool, body: &mut dyn Goes, seconds: f64) -> u64 {
     let pass = body.steps_per_pass();
     let (mut steps, mut found) = (pass, rate(pool, body, pass));

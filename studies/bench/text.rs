@@ -29,8 +29,8 @@ pub fn cases(cases: &[Rates]) -> String {
         }
         text += &format!("  {:<width$} {}\n", case.name, numbers(case));
     }
-    text += "\nnodes, bonds: updates over those of the group's first case in the same round; of limit: of the lower of\n\
-             operations and bytes (named), each over what the operator itself needs\n";
+    text += "\nnodes, bonds: updates over those of the group's first case in the same round; of limit: the fastest round,\n\
+             of what the operator's own operations (F) or bytes (B) allow, whichever is less; all else are medians\n";
     text
 }
 

@@ -21,11 +21,11 @@ use serde_json::Value;
 use std::io::{self, Write};
 
 /// Rounds of the suite and seconds of a case in each.
-const SUITE: Pace = Pace { rounds: 5, seconds: 0.08, steps: None };
+const SUITE: Pace = Pace { rounds: 6, seconds: 0.05, steps: None };
 /// What is held against predictions.
-const CHECK: Pace = Pace { rounds: 3, seconds: 0.08, steps: None };
+const CHECK: Pace = Pace { rounds: 5, seconds: 0.05, steps: None };
 /// A case alone.
-const ALONE: Pace = Pace { rounds: 7, seconds: 0.2, steps: None };
+const ALONE: Pace = Pace { rounds: 15, seconds: 0.1, steps: None };
 
 /// The families of larger plates are not run.
 const LARGEST_M: f64 = 200.0;

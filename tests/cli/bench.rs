@@ -102,6 +102,26 @@ fn the_suite_writes_nowhere_else() {
     place.refuses(&["run", "study.toml"], &["the folder of a shipped command"]);
 }
 
+/// Ctrl-C while limits or cases are measured: 130, and nothing is written.
+#[cfg(unix)]
+#[test]
+fn a_suite_that_is_interrupted_leaves_nothing() {
+    use std::process::{Command, Stdio};
+    let place = Place::new();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pd-verify"));
+    command.current_dir(place.path("")).arg("bench").stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = command.spawn().unwrap();
+    // The folder is made when the program listens and before anything is measured.
+    while !place.path("reports").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "ended before it could be interrupted");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let interrupted = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(interrupted.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(place.contents().keys().all(|path| path.ends_with("reports")), "{:?}", place.contents().keys());
+}
+
 /// A bar of a hundred nodes, 300 bonds of it, whose plan says how many steps there are.
 const BAR: &str = r#"format = 1
 id = "mine"
