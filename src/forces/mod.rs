@@ -9,7 +9,7 @@ mod damping;
 mod face_traction;
 mod law;
 mod load;
-pub mod sink;
+mod sink;
 mod stencil;
 pub mod surface;
 
@@ -25,7 +25,7 @@ use crate::breaking::Broken;
 use crate::field::Window;
 use crate::grid::Grid;
 use crate::lattice::Stencil;
-use sink::Step;
+pub use sink::Step;
 
 /// The state at which forces are evaluated.
 #[derive(Debug, Clone, Copy)]

@@ -3,7 +3,7 @@
 //! A step is u(n+1) = u(n) + d, d ← d + Δt²/ρ F. Where bonds alone act on a piece of work no sum is written and read
 //! again; the arithmetic is that of [`crate::march`] to the last bit: the sum starts from zero there.
 
-use super::stencil::Folded;
+use super::stencil::Part;
 use crate::simd::Lanes;
 use std::ops::Range;
 
@@ -18,8 +18,8 @@ pub trait Sink {
     /// Says that a place will be taken soon.
     fn expect<V: Lanes>(&self, place: usize);
 
-    /// Takes what a folded stencil leaves: said for each sink, so that its kernels are compiled here and nowhere else.
-    fn take(&mut self, folded: &Folded<'_>);
+    /// Takes what a part of a stencil leaves: said for each sink, so that the kernels are compiled here and nowhere else.
+    fn take(&mut self, part: &Part<'_>);
 }
 
 /// Adds to the sum of a piece.
@@ -43,8 +43,8 @@ impl Sink for Sum<'_> {
     #[inline(always)]
     fn expect<V: Lanes>(&self, _place: usize) {}
 
-    fn take(&mut self, folded: &Folded<'_>) {
-        folded.serve(self);
+    fn take(&mut self, part: &Part<'_>) {
+        part.serve(self);
     }
 }
 
@@ -83,7 +83,7 @@ impl Sink for Step<'_> {
         V::prefetch(self.next, place.wrapping_sub(self.start));
     }
 
-    fn take(&mut self, folded: &Folded<'_>) {
-        folded.serve(self);
+    fn take(&mut self, part: &Part<'_>) {
+        part.serve(self);
     }
 }

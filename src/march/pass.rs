@@ -9,7 +9,7 @@ use crate::breaking::Broken;
 use crate::constraints::Ghost;
 use crate::field::{Field, Window};
 use crate::forces::Now;
-use crate::forces::sink::Step;
+use crate::forces::Step;
 use crate::model::{Inertia, Model};
 use crate::simd::{Kernel, Lanes};
 use rayon::prelude::*;

@@ -175,8 +175,8 @@ mod tests {
         let rates = Rates::of("g", Isa::Baseline, &one, &first, &limits);
         assert_eq!((rates.node_updates_per_s, rates.bond_updates_per_s), (25_600.0, 460_800.0));
         assert_eq!((rates.ratio, rates.bond_ratio, rates.spread), (2.5, 2.5, 0.2));
-        // 64 bytes of u and d for each node, 16 for each of 16 runs.
-        let bytes = (64 * 256 + 16 * 16) as f64;
+        // 64 bytes of u and d for each node, 24 for each of 16 runs.
+        let bytes = (64 * 256 + 24 * 16) as f64;
         assert!((rates.gbyte_per_s - 1e-7 * bytes).abs() < 1e-18);
         // The fastest round had 110 steps a second.
         assert!((rates.of_limit - 1.1e-7 * bytes).abs() < 1e-18 && rates.limit == "bytes");

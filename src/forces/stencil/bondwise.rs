@@ -6,9 +6,9 @@
 
 use crate::field::Window;
 use crate::forces::sink::Sink;
-use crate::forces::{FamilyBond, Law};
+use crate::forces::{Direction, FamilyBond, Finite, Law, Small};
 use crate::grid::Run;
-use crate::simd::{Kernel, Lanes};
+use crate::simd::{Isa, Kernel, Lanes};
 use std::marker::PhantomData;
 
 /// Words are filled up to whole blocks of the widest lanes.
@@ -44,15 +44,78 @@ pub fn words(pairs: usize) -> usize {
     (2 * pairs).div_ceil(64)
 }
 
-/// Bonds of nodes side by side; with `MASKED` those whose bits are set, else all.
-pub struct Bondwise<'a, S, L, const D: usize, const MASKED: bool> {
-    pub bonds: &'a [(FamilyBond<D>, isize)],
+/// A bond of the half family of a bar or a plate; a bar has no second axis.
+#[derive(Debug, Clone, Copy)]
+pub struct Flat {
+    weight: f64,
+    direction: Direction<2>,
+    /// In memory.
+    shift: isize,
+}
+
+impl Flat {
+    pub fn new<const D: usize>(bond: &FamilyBond<D>, shift: isize) -> Self {
+        let of = |vector: [f64; D]| std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0));
+        let Direction { xi, length, unit } = bond.direction;
+        Self { weight: bond.weight, direction: Direction { xi: of(xi), length, unit: of(unit) }, shift }
+    }
+
+    #[inline(always)]
+    fn direction<const D: usize>(&self) -> Direction<D> {
+        let Direction { xi, length, unit } = self.direction;
+        Direction {
+            xi: std::array::from_fn(|axis| xi[axis]),
+            length,
+            unit: std::array::from_fn(|axis| unit[axis]),
+        }
+    }
+}
+
+/// Bonds of nodes side by side, of whatever law and body.
+pub struct Bonds<'a> {
+    pub isa: Isa,
+    pub bonds: &'a [Flat],
     pub runs: &'a [Masked],
     pub words: &'a [u64],
     pub displacement: Window<'a>,
     pub stride: usize,
-    pub sink: &'a mut S,
-    pub law: PhantomData<L>,
+    pub plane: bool,
+    pub finite: bool,
+    /// Whether nodes lack bonds.
+    pub masked: bool,
+}
+
+impl Bonds<'_> {
+    /// Leaves the force on the nodes in a sink.
+    pub fn serve(&self, sink: &mut impl Sink) {
+        match (self.plane, self.finite) {
+            (false, false) => self.by_law::<Small, 1>(sink),
+            (false, true) => self.by_law::<Finite, 1>(sink),
+            (true, false) => self.by_law::<Small, 2>(sink),
+            (true, true) => self.by_law::<Finite, 2>(sink),
+        }
+    }
+
+    fn by_law<L: Law, const D: usize>(&self, sink: &mut impl Sink) {
+        let Self { bonds, runs, words, displacement, stride, .. } = *self;
+        let law = PhantomData::<L>;
+        if self.masked {
+            self.isa.run(Bondwise::<_, L, D, true> { bonds, runs, words, displacement, stride, sink, law });
+        } else {
+            self.isa.run(Bondwise::<_, L, D, false> { bonds, runs, words, displacement, stride, sink, law });
+        }
+    }
+}
+
+/// With `MASKED` the bonds whose bits are set, else all.
+struct Bondwise<'a, S, L, const D: usize, const MASKED: bool> {
+    bonds: &'a [Flat],
+    runs: &'a [Masked],
+    words: &'a [u64],
+    displacement: Window<'a>,
+    stride: usize,
+    sink: &'a mut S,
+    law: PhantomData<L>,
 }
 
 impl<S: Sink, L: Law, const D: usize, const MASKED: bool> Kernel for Bondwise<'_, S, L, D, MASKED> {
@@ -61,7 +124,7 @@ impl<S: Sink, L: Law, const D: usize, const MASKED: bool> Kernel for Bondwise<'_
     #[inline(always)]
     fn run<V: Lanes>(mut self) {
         let (len, start) = (self.displacement.values().len(), self.displacement.start());
-        let reach = self.bonds.iter().map(|(_, shift)| shift.unsigned_abs()).max().unwrap_or(0);
+        let reach = self.bonds.iter().map(|bond| bond.shift.unsigned_abs()).max().unwrap_or(0);
         let pairs = self.bonds.len();
         for masked in self.runs {
             let (first, count) = (masked.first(), masked.padded());
@@ -109,8 +172,9 @@ impl<S: Sink, L: Law, const D: usize, const MASKED: bool> Bondwise<'_, S, L, D, 
                 })
             };
             let mut force = [V::splat(0.0); D];
-            for (index, (bond, shift)) in self.bonds.iter().enumerate() {
-                let pull = L::pair(&bond.direction, eta(*shift, 2 * index), eta(-shift, 2 * index + 1));
+            for (index, bond) in self.bonds.iter().enumerate() {
+                let pull =
+                    L::pair(&bond.direction(), eta(bond.shift, 2 * index), eta(-bond.shift, 2 * index + 1));
                 for axis in 0..D {
                     force[axis] = V::splat(bond.weight).mul_add(pull[axis], force[axis]);
                 }

@@ -67,10 +67,10 @@ impl<S: Sink, const R: usize> Line<'_, S, R> {
             for at in (aligned..aligned + count).step_by(V::N) {
                 let after = V::load(u, at + V::N - start);
                 let mut force = V::splat(0.0);
-                for i in 1..SHIFTED + 1 {
+                for (i, weight) in weights.iter().enumerate().skip(1) {
                     if i <= R {
                         let both = (here.ahead(after, i) - here) + (before.ahead(here, V::N - i) - here);
-                        force = V::splat(weights[i]).mul_add(both, force);
+                        force = V::splat(*weight).mul_add(both, force);
                     }
                 }
                 self.sink.put(at, here, force, Self::lanes::<V>(run, at));

@@ -185,9 +185,9 @@ impl<S: Sink> Many<'_, S> {
                 let here = V::load(u, here_at);
                 let row = if axis == 0 { &quadrant.row_x } else { &quadrant.row_y };
                 let mut force = if axis == 1 { V::load(scratch, at) } else { V::splat(0.0) };
-                for i in 1..=quadrant.reach {
+                for (i, weight) in row.iter().enumerate().skip(1) {
                     let (forward, backward) = (V::load(u, here_at + i), V::load(u, here_at - i));
-                    force = V::splat(row[i]).mul_add((forward - here) + (backward - here), force);
+                    force = V::splat(*weight).mul_add((forward - here) + (backward - here), force);
                     if quadrant.tops[i] > 0 {
                         let plane = (1 + 4 * (i - 1) + 2 * axis) * width;
                         let plus = V::load(scratch, plane + at + i);

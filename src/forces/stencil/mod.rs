@@ -17,14 +17,32 @@ use super::{Class, Direction, FamilyBond, Force, Law, Now, Present, apart, reach
 use crate::field::Window;
 use crate::grid::{Grid, Run};
 use crate::simd::Isa;
-use bondwise::{Bondwise, Masked, words};
-pub use folded::Folded;
+use bondwise::{Bonds, Flat, Masked, words};
+use folded::Folded;
 use quadrant::Quadrant;
 use std::marker::PhantomData;
+
+/// Some nodes of a piece and the way in which their bonds are served.
+pub enum Part<'a> {
+    Folded(Folded<'a>),
+    Bonds(Bonds<'a>),
+}
+
+impl Part<'_> {
+    /// Leaves the force on the nodes in a sink.
+    pub fn serve(&self, sink: &mut impl Sink) {
+        match self {
+            Self::Folded(folded) => folded.serve(sink),
+            Self::Bonds(bonds) => bonds.serve(sink),
+        }
+    }
+}
 
 /// The operator, over the nodes it was given.
 pub struct LatticeStencil<const D: usize, L> {
     bonds: Vec<(FamilyBond<D>, isize)>,
+    /// The same for kernels.
+    flat: Vec<Flat>,
     folded: Option<Quadrant>,
     stride: usize,
     row: usize,
@@ -84,6 +102,7 @@ impl<const D: usize, L: Law> LatticeStencil<D, L> {
         let whole = grid.runs(|node| nodes(node) && complete(node)).into_iter();
         let folded = Quadrant::of(family).filter(|folded| L::LINEAR && (D == 1 || many::serves(folded)));
         Self {
+            flat: family.iter().map(|bond| Flat::new(bond, grid.shift(bond.offset))).collect(),
             bonds: family.iter().map(|bond| (*bond, grid.shift(bond.offset))).collect(),
             folded,
             stride: grid.stride(),
@@ -111,24 +130,20 @@ impl<const D: usize, L: Law> LatticeStencil<D, L> {
 
     /// Leaves the force on all nodes of a piece in a sink.
     fn serve(&self, displacement: Window<'_>, piece: usize, sink: &mut impl Sink) {
-        let whole = &self.whole[piece];
-        match &self.folded {
+        let Self { isa, stride, row, .. } = *self;
+        let (whole, masked) = (&self.whole[piece], &self.masked[piece]);
+        let bonds = |runs, masked| {
+            let (plane, finite) = (D > 1, !L::LINEAR);
+            let (bonds, words) = (&self.flat, &self.words);
+            Part::Bonds(Bonds { isa, bonds, runs, words, displacement, stride, plane, finite, masked })
+        };
+        sink.take(&match &self.folded {
             Some(quadrant) => {
-                let (isa, stride, row) = (self.isa, self.stride, self.row);
-                sink.take(&Folded { isa, quadrant, runs: whole, displacement, stride, row, plane: D > 1 });
+                Part::Folded(Folded { isa, quadrant, runs: whole, displacement, stride, row, plane: D > 1 })
             }
-            None => self.by_bonds::<false>(displacement, whole, sink),
-        }
-        self.by_bonds::<true>(displacement, &self.masked[piece], sink);
-    }
-
-    fn by_bonds<const MASKED: bool>(&self, displacement: Window<'_>, runs: &[Masked], sink: &mut impl Sink) {
-        if runs.is_empty() {
-            return;
-        }
-        let (bonds, words, stride) = (&self.bonds, &self.words, self.stride);
-        let law = self.law;
-        self.isa.run(Bondwise::<_, L, D, MASKED> { bonds, runs, words, displacement, stride, sink, law });
+            None => bonds(whole, false),
+        });
+        sink.take(&bonds(masked, true));
     }
 
     /// The bonds of a node in a run of masked ones that exist: weight, direction, η.
