@@ -4,7 +4,7 @@
 //! with d = Δt v₀ − ½Δt² a₀ half a step before t = 0, it is second order from the first step on.
 
 //!
-//! Between two looks at a body several steps are made in one pass over memory ([`pass`], [`schedule`]); no bit depends on
+//! Between two looks at a body several steps are made in one pass over memory (`pass`, `schedule`); no bit depends on
 //! how many, nor on the number of threads.
 
 mod pass;

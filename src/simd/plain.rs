@@ -1,5 +1,8 @@
 //! Lanes in plain code: for processors without vector instructions of their own here, and the mirror that the others are
 //! tested against, every access checked.
+//!
+//! # Safety
+//! Nothing is promised here: loads and stores look at the length of the slice.
 
 use super::Lanes;
 use std::ops::{Add, Div, Mul, Sub};

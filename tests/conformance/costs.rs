@@ -116,9 +116,9 @@ fn what_a_step_does_by_hand() {
     assert_eq!((free.kinds.whole_nodes, free.kinds.masked_nodes, free.kinds.masked_ends), (12, 18, 82));
     assert_eq!((free.pairs, free.kinds.listed_nodes, free.kinds.breaking_nodes), (4, 0, 0));
     assert_eq!(free.flops_per_step, (12 * 31 + 82 * 11 + 30 * 6) as f64);
-    // 32 bytes for each component, 16 for each of 3 runs, 40 for each mask.
-    assert_eq!(free.bytes_per_step(1), (30 * 64 + 3 * 16 + 18 * 40) as f64);
-    assert_eq!(free.bytes_per_step(4), (30 * 16 + 3 * 16 + 18 * 40) as f64);
+    // 32 bytes for each component, 24 for each of 3 runs of whole nodes and 8 of others, a line of words for each of these.
+    assert_eq!(free.bytes_per_step(1), (30 * 64 + 11 * 24 + 8 * 64) as f64);
+    assert_eq!(free.bytes_per_step(4), (30 * 16 + 11 * 24 + 8 * 64) as f64);
     let listed = work(&Scene { operator: Operator::Bonds, ..plate.clone() });
     assert_eq!((listed.kinds.listed_nodes, listed.kinds.listed_ends), (30, 178));
     assert_eq!(listed.flops_per_step, (178 * 11 + 30 * 6) as f64);

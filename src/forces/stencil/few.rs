@@ -103,9 +103,8 @@ impl<S: Sink, const TOPS: u32> Few<'_, S, TOPS> {
     fn weights(&self) -> Weights {
         let mut weights = Weights { bonds: [[[0.0; 3]; REACH + 1]; REACH + 1], row: [[0.0; 2]; REACH + 1] };
         for i in 0..=Self::R {
-            for j in 0..=top(TOPS, i) {
-                weights.bonds[i][j] = self.quadrant.at(i, j);
-            }
+            let column = self.quadrant.column(i);
+            weights.bonds[i][1..=column.len()].copy_from_slice(column);
             weights.row[i] = [self.quadrant.row_x[i], self.quadrant.row_y[i]];
         }
         weights

@@ -10,7 +10,7 @@ use crate::forces::sink::Sink;
 use crate::simd::{Kernel, Lanes};
 
 /// Numbers of the scratch: the columns of a strip.
-const SCRATCH: usize = 16_384;
+const SCRATCH: usize = 8192;
 
 /// The largest reach whose columns are kept between two passes.
 const MOST: usize = 64;
@@ -50,6 +50,7 @@ impl<S: Sink> Kernel for Many<'_, S> {
     #[inline(always)]
     fn run<V: Lanes>(mut self) {
         let mut scratch = Scratch([0.0; SCRATCH]);
+        let mut column = Column([[0.0; 8]; 4 * (MOST + 1)]);
         let border = self.quadrant.reach.next_multiple_of(V::N);
         let width = SCRATCH / planes(self.quadrant) / V::N * V::N;
         let strip = width - 2 * border;
@@ -64,7 +65,7 @@ impl<S: Sink> Kernel for Many<'_, S> {
                 let from = run.start.max(base + strip_start);
                 let until = (run.start + run.len).min(base + strip_start + strip);
                 if from < until {
-                    self.stretch::<V>([from, until], border, width, &mut scratch.0);
+                    self.stretch::<V>([from, until], border, width, (&mut scratch.0, &mut column));
                 }
             }
         }
@@ -79,7 +80,7 @@ impl<S: Sink> Many<'_, S> {
         [from, until]: [usize; 2],
         border: usize,
         width: usize,
-        scratch: &mut [f64; SCRATCH],
+        (scratch, column): (&mut [f64; SCRATCH], &mut Column),
     ) {
         let aligned = from - from % V::N;
         let count = (until - aligned).next_multiple_of(V::N);
@@ -90,8 +91,8 @@ impl<S: Sink> Many<'_, S> {
         assert!(count + 2 * border <= width && width * planes(self.quadrant) <= SCRATCH, "a strip fits");
         // SAFETY: the loads of both stay in the range just asserted, those of the scratch in its planes.
         unsafe {
-            for column in (0..count + 2 * border).step_by(V::N) {
-                self.column::<V>(aligned - border + column - start, column, width, scratch);
+            for to in (0..count + 2 * border).step_by(V::N) {
+                self.sums::<V>(aligned - border + to - start, [to, width], scratch, column);
             }
             for at in (0..count).step_by(V::N) {
                 let lanes = from.saturating_sub(aligned + at)..(until - aligned - at).min(V::N);
@@ -105,9 +106,14 @@ impl<S: Sink> Many<'_, S> {
     /// # Safety
     /// As in [`Self::stretch`].
     #[inline(always)]
-    unsafe fn column<V: Lanes>(&self, at: usize, to: usize, width: usize, scratch: &mut [f64; SCRATCH]) {
+    unsafe fn sums<V: Lanes>(
+        &self,
+        at: usize,
+        [to, width]: [usize; 2],
+        scratch: &mut [f64; SCRATCH],
+        column: &mut Column,
+    ) {
         let reach = self.quadrant.reach;
-        let mut column = Column([[0.0; 8]; 4 * (MOST + 1)]);
         // SAFETY: the caller's; a column holds the largest reach.
         unsafe {
             let u = self.displacement.values();
@@ -121,21 +127,24 @@ impl<S: Sink> Many<'_, S> {
                     (above - below).store(&mut column.0[4 * j + 2 + axis], 0);
                 }
             }
+            let lines = column.0.as_chunks::<4>().0;
             let mut own = V::splat(0.0);
-            for j in 1..=reach {
-                let [_, yy, _] = self.quadrant.at(0, j);
-                own = V::splat(yy).mul_add(V::load(&column.0[4 * j + 1], 0), own);
+            for ([_, yy, _], line) in self.quadrant.column(0).iter().zip(&lines[1..]) {
+                own = V::splat(*yy).mul_add(V::load(&line[1], 0), own);
             }
             own.store(scratch, to);
             for i in (1..=reach).step_by(2) {
-                let tops = [self.quadrant.tops[i], self.quadrant.tops.get(i + 1).copied().unwrap_or(0)];
+                // Two columns, the second of which is no longer than the first.
+                let long = self.quadrant.column(i);
+                let short = if i < reach { self.quadrant.column(i + 1) } else { &[] };
+                let (both, rest) = long.split_at(short.len());
                 let mut sums = [[V::splat(0.0); 4]; 2];
-                for j in 1..=tops[1] {
-                    self.add::<V>(&column, j, i, &mut sums[0]);
-                    self.add::<V>(&column, j, i + 1, &mut sums[1]);
+                for ((one, other), line) in both.iter().zip(short).zip(&lines[1..]) {
+                    add(one, line, &mut sums[0]);
+                    add(other, line, &mut sums[1]);
                 }
-                for j in tops[1] + 1..=tops[0] {
-                    self.add::<V>(&column, j, i, &mut sums[0]);
+                for (one, line) in rest.iter().zip(&lines[1 + short.len()..]) {
+                    add(one, line, &mut sums[0]);
                 }
                 for (i, [a, b, c, d]) in (i..=reach).zip(sums) {
                     let to = to + (1 + 4 * (i - 1)) * width;
@@ -146,21 +155,6 @@ impl<S: Sink> Many<'_, S> {
                 }
             }
         }
-    }
-
-    /// A bond (i, j) to A, B of x and A, B of y.
-    ///
-    /// # Safety
-    /// `j` is in the column.
-    #[inline(always)]
-    unsafe fn add<V: Lanes>(&self, column: &Column, j: usize, i: usize, sums: &mut [V; 4]) {
-        let [xx, yy, xy] = self.quadrant.at(i, j).map(V::splat);
-        // SAFETY: lines of eight.
-        let [sx, sy, dx, dy] = unsafe { [0, 1, 2, 3].map(|of| V::load(&column.0[4 * j + of], 0)) };
-        sums[0] = xx.mul_add(sx, sums[0]);
-        sums[1] = xy.mul_add(dy, sums[1]);
-        sums[2] = yy.mul_add(sy, sums[2]);
-        sums[3] = xy.mul_add(dx, sums[3]);
     }
 
     /// The force on a block of nodes from the columns around place `at` of each plane.
@@ -201,4 +195,16 @@ impl<S: Sink> Many<'_, S> {
             }
         }
     }
+}
+
+/// A bond (i, j) to A, B of x and A, B of y, from the j-th line of a column.
+#[inline(always)]
+fn add<V: Lanes>(weights: &[f64; 3], line: &[[f64; 8]; 4], sums: &mut [V; 4]) {
+    let [xx, yy, xy] = weights.map(V::splat);
+    // SAFETY: eight numbers each.
+    let [sx, sy, dx, dy] = unsafe { [0, 1, 2, 3].map(|of| V::load(&line[of], 0)) };
+    sums[0] = xx.mul_add(sx, sums[0]);
+    sums[1] = xy.mul_add(dy, sums[1]);
+    sums[2] = yy.mul_add(sy, sums[2]);
+    sums[3] = xy.mul_add(dx, sums[3]);
 }

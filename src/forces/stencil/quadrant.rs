@@ -17,10 +17,8 @@ pub struct Quadrant {
     pub reach: usize,
     /// By i from 0 to the reach: the largest j of a bond (i, j).
     pub tops: Vec<usize>,
-    /// By i and j, each from 0 to the reach, in N/m⁴.
-    xx: Vec<f64>,
-    yy: Vec<f64>,
-    xy: Vec<f64>,
+    /// w_xx, w_yy, w_xy by i and j, each from 0 to the reach, in N/m⁴.
+    bonds: Vec<[f64; 3]>,
     /// By i: sums over the columns i, of xx and of yy.
     pub row_x: Vec<f64>,
     pub row_y: Vec<f64>,
@@ -40,9 +38,7 @@ impl Quadrant {
         let mut folded = Self {
             reach,
             tops: vec![0; side],
-            xx: vec![0.0; side * side],
-            yy: vec![0.0; side * side],
-            xy: vec![0.0; side * side],
+            bonds: vec![[0.0; 3]; side * side],
             row_x: vec![0.0; side],
             row_y: vec![0.0; side],
         };
@@ -55,14 +51,13 @@ impl Quadrant {
                 }
                 let Some(weight) = weight(a, b).filter(|_| i + j > 0) else { continue };
                 let square = (i * i + j * j) as f64;
-                let at = i * side + j;
-                folded.xx[at] = weight * (i * i) as f64 / square;
-                folded.yy[at] = weight * (j * j) as f64 / square;
-                folded.xy[at] = weight * (i * j) as f64 / square;
+                let of = |product: usize| weight * product as f64 / square;
+                let [xx, yy, xy] = [of(i * i), of(j * j), of(i * j)];
+                folded.bonds[i * side + j] = [xx, yy, xy];
                 folded.tops[i] = folded.tops[i].max(j);
                 let columns = if j == 0 { 1.0 } else { 2.0 };
-                folded.row_x[i] += columns * folded.xx[at];
-                folded.row_y[i] += columns * folded.yy[at];
+                folded.row_x[i] += columns * xx;
+                folded.row_y[i] += columns * yy;
                 bonds += if i * j == 0 { 1 } else { 2 };
             }
         }
@@ -70,11 +65,11 @@ impl Quadrant {
         (bonds == family.len()).then_some(folded)
     }
 
-    /// w_xx, w_yy, w_xy of a bond.
+    /// w_xx, w_yy, w_xy of the bonds (i, j) of a column, by j from 1 to its top.
     #[inline(always)]
-    pub fn at(&self, i: usize, j: usize) -> [f64; 3] {
-        let at = i * (self.reach + 1) + j;
-        [self.xx[at], self.yy[at], self.xy[at]]
+    pub fn column(&self, i: usize) -> &[[f64; 3]] {
+        let first = i * (self.reach + 1);
+        &self.bonds[first + 1..first + 1 + self.tops[i]]
     }
 
     /// The tops, four bits each, where that is enough to name the family.
