@@ -38,10 +38,15 @@ fn planes(quadrant: &Quadrant) -> usize {
     1 + 4 * quadrant.reach
 }
 
-/// Whether the scratch holds a strip worth its two borders.
+/// Whether the scratch holds a strip as wide as a border beside its two borders, or nearly.
 pub fn serves(quadrant: &Quadrant) -> bool {
-    let border = 2 * quadrant.reach.next_multiple_of(8);
-    quadrant.reach <= MOST && SCRATCH / planes(quadrant) >= 2 * border
+    let border = quadrant.reach.next_multiple_of(8);
+    quadrant.reach <= MOST && SCRATCH / planes(quadrant) >= 3 * border
+}
+
+/// Columns of a strip with its borders, and one of these, in blocks of so many lanes.
+fn widths(quadrant: &Quadrant, lanes: usize) -> [usize; 2] {
+    [SCRATCH / planes(quadrant) / lanes * lanes, quadrant.reach.next_multiple_of(lanes)]
 }
 
 impl<S: Sink> Kernel for Many<'_, S> {
@@ -51,8 +56,7 @@ impl<S: Sink> Kernel for Many<'_, S> {
     fn run<V: Lanes>(mut self) {
         let mut scratch = Scratch([0.0; SCRATCH]);
         let mut column = Column([[0.0; 8]; 4 * (MOST + 1)]);
-        let border = self.quadrant.reach.next_multiple_of(V::N);
-        let width = SCRATCH / planes(self.quadrant) / V::N * V::N;
+        let [width, border] = widths(self.quadrant, V::N);
         let strip = width - 2 * border;
         let Some(last) = self.runs.iter().map(|Masked { run, .. }| run.start % self.row + run.len).max()
         else {
@@ -207,4 +211,30 @@ fn add<V: Lanes>(weights: &[f64; 3], line: &[[f64; 8]; 4], sums: &mut [V; 4]) {
     sums[1] = xy.mul_add(dy, sums[1]);
     sums[2] = yy.mul_add(sy, sums[2]);
     sums[3] = xy.mul_add(dx, sums[3]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forces::{Direction, FamilyBond};
+
+    /// A family along the axes that reaches so many nodes.
+    fn cross(reach: usize) -> Quadrant {
+        let reach = i32::try_from(reach).expect("a short family");
+        let bond = |offset| FamilyBond { offset, direction: Direction::new(offset, 1.0), weight: 1.0 };
+        let family: Vec<_> = (1..=reach).flat_map(|n| [[n, 0], [0, n]]).map(bond).collect();
+        Quadrant::of(&family).expect("a symmetric family")
+    }
+
+    #[test]
+    fn whoever_is_served_has_a_strip() {
+        let served: Vec<usize> = (1..=2 * MOST).filter(|&reach| serves(&cross(reach))).collect();
+        assert!(served.contains(&10) && served.contains(&20) && !served.contains(&31));
+        for reach in served {
+            for lanes in [4, 8] {
+                let [width, border] = widths(&cross(reach), lanes);
+                assert!(width >= 2 * border + lanes, "{reach} nodes, {lanes} lanes");
+            }
+        }
+    }
 }
