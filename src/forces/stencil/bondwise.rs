@@ -39,6 +39,20 @@ impl Masked {
     }
 }
 
+/// The runs cut into strips of so many columns, strip by strip: where each part begins and ends.
+pub fn stretches(runs: &[Masked], row: usize, strip: usize) -> impl Iterator<Item = [usize; 2]> {
+    let column = move |masked: &Masked| masked.run.start % row;
+    let first = runs.iter().map(column).min().unwrap_or(0) / BLOCK * BLOCK;
+    let last = runs.iter().map(|masked| column(masked) + masked.run.len).max().unwrap_or(0);
+    (first..last).step_by(strip).flat_map(move |start| {
+        let within = move |Masked { run, .. }: &Masked| {
+            let start = run.start - run.start % row + start;
+            [run.start.max(start), (run.start + run.len).min(start + strip)]
+        };
+        runs.iter().map(within).filter(|[from, until]| from < until)
+    })
+}
+
 /// Words of a node for a half family of so many bonds.
 pub fn words(pairs: usize) -> usize {
     (2 * pairs).div_ceil(64)

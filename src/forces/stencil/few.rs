@@ -4,7 +4,7 @@
 //! are written side by side; then each node gathers those of its neighbours by shifting registers, so that every load and
 //! store is a whole cache line. What the next row needs is asked for while this one is worked on.
 
-use super::bondwise::Masked;
+use super::bondwise::{Masked, stretches};
 use super::quadrant::Quadrant;
 use crate::field::Window;
 use crate::forces::sink::Sink;
@@ -79,20 +79,8 @@ impl<S: Sink, const TOPS: u32> Kernel for Few<'_, S, TOPS> {
     fn run<V: Lanes>(mut self) {
         let weights = self.weights();
         let mut scratch = Scratch([0.0; SCRATCH]);
-        let Some(last) = self.runs.iter().map(|Masked { run, .. }| run.start % self.row + run.len).max()
-        else {
-            return;
-        };
-        let first = self.runs.iter().map(|Masked { run, .. }| run.start % self.row).min().unwrap_or(0) & !7;
-        for strip in (first..last).step_by(STRIP) {
-            for Masked { run, .. } in self.runs {
-                let base = run.start - run.start % self.row;
-                let from = run.start.max(base + strip);
-                let until = (run.start + run.len).min(base + strip + STRIP);
-                if from < until {
-                    self.stretch::<V>(&weights, from, until, &mut scratch.0);
-                }
-            }
+        for [from, until] in stretches(self.runs, self.row, STRIP) {
+            self.stretch::<V>(&weights, from, until, &mut scratch.0);
         }
     }
 }

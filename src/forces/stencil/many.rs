@@ -3,7 +3,7 @@
 //! The same sums as in [`super::few`], with loops over the family in place of registers: two i at a time, so that enough
 //! sums grow side by side, and neighbours gathered by loads that are not aligned.
 
-use super::bondwise::Masked;
+use super::bondwise::{Masked, stretches};
 use super::quadrant::Quadrant;
 use crate::field::Window;
 use crate::forces::sink::Sink;
@@ -58,20 +58,8 @@ impl<S: Sink> Kernel for Many<'_, S> {
         let mut column = Column([[0.0; 8]; 4 * (MOST + 1)]);
         let [width, border] = widths(self.quadrant, V::N);
         let strip = width - 2 * border;
-        let Some(last) = self.runs.iter().map(|Masked { run, .. }| run.start % self.row + run.len).max()
-        else {
-            return;
-        };
-        let first = self.runs.iter().map(|Masked { run, .. }| run.start % self.row).min().unwrap_or(0) & !7;
-        for strip_start in (first..last).step_by(strip) {
-            for Masked { run, .. } in self.runs {
-                let base = run.start - run.start % self.row;
-                let from = run.start.max(base + strip_start);
-                let until = (run.start + run.len).min(base + strip_start + strip);
-                if from < until {
-                    self.stretch::<V>([from, until], border, width, (&mut scratch.0, &mut column));
-                }
-            }
+        for stretch in stretches(self.runs, self.row, strip) {
+            self.stretch::<V>(stretch, border, width, (&mut scratch.0, &mut column));
         }
     }
 }
