@@ -84,9 +84,11 @@ impl<const D: usize> Grid<D> {
         node.get(1).copied().unwrap_or(0) as usize * self.nodes[0] + node[0] as usize
     }
 
-    /// From one component of a node to the next; also the length of a row of one component.
+    /// From one component of a node to the next; also the length of a row of one component. In a plate that is an odd
+    /// multiple of four lines: the rows that a node sees then spread over all sets of a first cache.
     pub fn stride(&self) -> usize {
-        2 * self.before() + self.nodes[0].next_multiple_of(LINE)
+        let lines = (2 * self.before() + self.nodes[0]).div_ceil(LINE);
+        LINE * if D == 1 { lines } else { (lines + 4).next_multiple_of(8) - 4 }
     }
 
     /// Numbers before the first node of a row, and as many behind the line of the last.
@@ -229,7 +231,9 @@ mod tests {
     #[test]
     fn neighbours_are_one_shift_away() {
         let grid = Grid::<2>::new([7, 5], 0.5, 3);
-        assert_eq!((grid.stride(), grid.field().len()), (24, 2 * 24 * 11));
+        assert_eq!((grid.stride(), grid.field().len()), (32, 2 * 32 * 11));
+        let lines: Vec<usize> = [100, 1024, 1040, 4096].map(|nodes| Grid::<2>::new([nodes, 5], 0.5, 3).stride() / LINE).into();
+        assert_eq!(lines, [20, 132, 132, 516]);
         for node in grid.each() {
             let to = [node[0] - 2, node[1] + 3];
             assert_eq!(grid.place(node).wrapping_add_signed(grid.shift([-2, 3])), grid.place(to));

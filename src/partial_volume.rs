@@ -55,9 +55,9 @@ impl VolumeRule {
 /// Area of the unit cell around (i, j) inside the disc of radius m around the origin.
 ///
 /// Green's theorem over the boundary of the intersection: each side of the cell contributes the triangle of its
-/// part inside the disc and the circular sectors of its parts outside.
+/// part inside the disc and the circular sectors of its parts outside. (i, j) and (j, i) have the same bits.
 pub fn cell_in_disc(i: i32, j: i32, m: f64) -> f64 {
-    let (x, y) = (f64::from(i.abs()), f64::from(j.abs()));
+    let (x, y) = (f64::from(i.abs().max(j.abs())), f64::from(i.abs().min(j.abs())));
     if (x + 0.5).hypot(y + 0.5) <= m {
         return 1.0;
     }

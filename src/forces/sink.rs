@@ -9,11 +9,40 @@ use std::ops::Range;
 
 /// Takes the force on nodes side by side.
 pub trait Sink {
+    /// The same sink for a kernel to own: what it points at then stays in registers.
+    type Lent<'a>: Sink
+    where
+        Self: 'a;
+
+    fn lend(&mut self) -> Self::Lent<'_>;
+
     /// `place` is that of the first lane in the field, `here` the displacement there, of which component does not matter.
     ///
     /// # Safety
     /// The block lies within the piece.
-    unsafe fn put<V: Lanes>(&mut self, place: usize, here: V, force: V, lanes: Range<usize>);
+    unsafe fn put<V: Lanes>(&mut self, place: usize, here: V, force: V);
+
+    /// The same for some lanes.
+    ///
+    /// # Safety
+    /// They lie within the piece.
+    unsafe fn put_some<V: Lanes>(&mut self, place: usize, here: V, force: V, lanes: Range<usize>);
+
+    /// The same for some lanes or all.
+    ///
+    /// # Safety
+    /// They lie within the piece.
+    #[inline(always)]
+    unsafe fn put_lanes<V: Lanes>(&mut self, place: usize, here: V, force: V, lanes: Range<usize>) {
+        // SAFETY: the caller's.
+        unsafe {
+            if lanes.len() == V::N {
+                self.put(place, here, force);
+            } else {
+                self.put_some(place, here, force, lanes);
+            }
+        }
+    }
 
     /// Says that a place will be taken soon.
     fn expect<V: Lanes>(&self, place: usize);
@@ -30,14 +59,27 @@ pub struct Sum<'a> {
 }
 
 impl Sink for Sum<'_> {
+    type Lent<'b>
+        = Sum<'b>
+    where
+        Self: 'b;
+
+    fn lend(&mut self) -> Sum<'_> {
+        Sum { sum: self.sum, start: self.start }
+    }
+
     #[inline(always)]
-    unsafe fn put<V: Lanes>(&mut self, place: usize, _here: V, force: V, lanes: Range<usize>) {
+    unsafe fn put<V: Lanes>(&mut self, place: usize, _here: V, force: V) {
         let at = place - self.start;
         // SAFETY: the caller's.
-        unsafe {
-            let sum = V::load(self.sum, at) + force;
-            if lanes.len() == V::N { sum.store(self.sum, at) } else { sum.store_some(self.sum, at, lanes) }
-        }
+        unsafe { (V::load(self.sum, at) + force).store(self.sum, at) };
+    }
+
+    #[inline(always)]
+    unsafe fn put_some<V: Lanes>(&mut self, place: usize, _here: V, force: V, lanes: Range<usize>) {
+        let at = place - self.start;
+        // SAFETY: the caller's.
+        unsafe { (V::load(self.sum, at) + force).store_some(self.sum, at, lanes) };
     }
 
     #[inline(always)]
@@ -60,20 +102,47 @@ pub struct Step<'a> {
     pub factor: f64,
 }
 
-impl Sink for Step<'_> {
+impl Step<'_> {
+    /// u(n+1) − u(n).
+    ///
+    /// # Safety
+    /// The block lies within the piece.
     #[inline(always)]
-    unsafe fn put<V: Lanes>(&mut self, place: usize, here: V, force: V, lanes: Range<usize>) {
+    unsafe fn moved<V: Lanes>(&self, at: usize, force: V) -> V {
+        // SAFETY: the caller's.
+        unsafe { V::load(self.increment, at) + V::splat(self.factor) * force }
+    }
+}
+
+impl Sink for Step<'_> {
+    type Lent<'b>
+        = Step<'b>
+    where
+        Self: 'b;
+
+    fn lend(&mut self) -> Step<'_> {
+        Step { increment: self.increment, next: self.next, start: self.start, factor: self.factor }
+    }
+
+    #[inline(always)]
+    unsafe fn put<V: Lanes>(&mut self, place: usize, here: V, force: V) {
         let at = place - self.start;
         // SAFETY: the caller's; `next` is as long as `increment`.
         unsafe {
-            let moved = V::load(self.increment, at) + V::splat(self.factor) * (V::splat(0.0) + force);
-            if lanes.len() == V::N {
-                moved.store(self.increment, at);
-                (here + moved).store(self.next, at);
-            } else {
-                moved.store_some(self.increment, at, lanes.clone());
-                (here + moved).store_some(self.next, at, lanes);
-            }
+            let moved = self.moved(at, force);
+            moved.store(self.increment, at);
+            (here + moved).store(self.next, at);
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn put_some<V: Lanes>(&mut self, place: usize, here: V, force: V, lanes: Range<usize>) {
+        let at = place - self.start;
+        // SAFETY: as above.
+        unsafe {
+            let moved = self.moved(at, force);
+            moved.store_some(self.increment, at, lanes.clone());
+            (here + moved).store_some(self.next, at, lanes);
         }
     }
 

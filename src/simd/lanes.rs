@@ -26,6 +26,9 @@ pub trait Lanes:
     /// self × factor + term, rounded once where the instruction set can.
     fn mul_add(self, factor: Self, term: Self) -> Self;
 
+    /// term − self × factor, rounded as [`Self::mul_add`].
+    fn sub_mul(self, factor: Self, term: Self) -> Self;
+
     fn sqrt(self) -> Self;
 
     /// What lies `n` lanes further: the lanes from `n` on, then the first `n` of `next`.
@@ -36,6 +39,16 @@ pub trait Lanes:
     /// # Safety
     /// `at + N <= words.len()`.
     unsafe fn kept(self, words: &[u64], at: usize, bit: u32) -> Self;
+
+    /// What lies from a place on, of which the compiler knows nothing more: it then keeps one pointer and some distances
+    /// where it would step one pointer for each row that a loop reads.
+    ///
+    /// # Safety
+    /// `at <= from.len()`.
+    #[inline(always)]
+    unsafe fn anew(from: &[f64], at: usize) -> &[f64] {
+        &from[at..]
+    }
 
     /// Says that a place will be needed soon; any place may be named.
     #[inline(always)]
@@ -75,6 +88,11 @@ impl Lanes for f64 {
     #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
         self * factor + term
+    }
+
+    #[inline(always)]
+    fn sub_mul(self, factor: Self, term: Self) -> Self {
+        term - self * factor
     }
 
     #[inline(always)]

@@ -78,6 +78,11 @@ impl<const N: usize, const FUSED: bool> Lanes for Plain<N, FUSED> {
     }
 
     #[inline(always)]
+    fn sub_mul(self, factor: Self, term: Self) -> Self {
+        Self(self.0.map(|value| -value)).mul_add(factor, term)
+    }
+
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Self(self.0.map(f64::sqrt))
     }

@@ -144,7 +144,7 @@ fn effects() -> Group {
     let ledger = Probe { name: "energies".into(), watch: Watch::Energies, every: 1 };
     let cases = vec![
         reference(),
-        Case::new("mirrored edges", Scene { edges: Edges([[Edge::MirrorOdd; 2]; 2]), ..plain() }),
+        Case::new("periodic edges", Scene { edges: Edges([[Edge::Periodic; 2]; 2]), ..plain() }),
         Case::new("free edges", free()),
         Case::new("notch along x", cut_from_left(plain())),
         Case::new("notch along y", cut_from_below(plain())),

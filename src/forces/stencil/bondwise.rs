@@ -114,9 +114,9 @@ impl Bonds<'_> {
         let Self { bonds, runs, words, displacement, stride, .. } = *self;
         let law = PhantomData::<L>;
         if self.masked {
-            self.isa.run(Bondwise::<_, L, D, true> { bonds, runs, words, displacement, stride, sink, law });
+            self.isa.run(Bondwise::<_, L, D, true> { bonds, runs, words, displacement, stride, sink: sink.lend(), law });
         } else {
-            self.isa.run(Bondwise::<_, L, D, false> { bonds, runs, words, displacement, stride, sink, law });
+            self.isa.run(Bondwise::<_, L, D, false> { bonds, runs, words, displacement, stride, sink: sink.lend(), law });
         }
     }
 }
@@ -128,7 +128,7 @@ struct Bondwise<'a, S, L, const D: usize, const MASKED: bool> {
     words: &'a [u64],
     displacement: Window<'a>,
     stride: usize,
-    sink: &'a mut S,
+    sink: S,
     law: PhantomData<L>,
 }
 
@@ -194,7 +194,7 @@ impl<S: Sink, L: Law, const D: usize, const MASKED: bool> Bondwise<'_, S, L, D, 
                 }
             }
             for axis in 0..D {
-                self.sink.put(place + axis * self.stride, here[axis], force[axis], lanes.clone());
+                self.sink.put_lanes(place + axis * self.stride, here[axis], force[axis], lanes.clone());
             }
         }
     }

@@ -1,23 +1,23 @@
-//! The plane stencil of families that reach at most four nodes: all sums of a column stay in registers.
+//! The plane stencil of families that reach at most seven nodes: all sums of a column stay in registers.
 //!
-//! Rows are taken in strips that fit the first cache. For each block of a strip the columns' P_i and M_i ([`Quadrant`])
-//! are written side by side; then each node gathers those of its neighbours by shifting registers, so that every load and
-//! store is a whole cache line. What the next row needs is asked for while this one is worked on.
+//! Rows are taken in strips that fit the first cache, one component of the force after the other, block by block. What the
+//! columns of a block do to the nodes before and behind ([`Quadrant`]) reaches them by shifting registers, so that every
+//! load and store is a whole cache line. What the next row needs is asked for while this one is worked on. Loads bound
+//! these loops: one component at a time leaves registers for weights, those that both axes share are read once, and rows
+//! are subtracted from a register straight from memory.
 
 use super::bondwise::{Masked, stretches};
 use super::quadrant::Quadrant;
 use crate::field::Window;
 use crate::forces::sink::Sink;
 use crate::simd::{Kernel, Lanes};
+use std::cmp::Ordering;
 
 /// The largest reach of these families.
-pub const REACH: usize = 4;
+pub const REACH: usize = 7;
 
-/// Nodes of a strip: its rows and columns fit a first cache of 32 KiB.
-const STRIP: usize = 128;
-
-/// Columns of a strip and of one block on each side, for the largest reach, in the widest lanes.
-const SCRATCH: usize = (1 + 4 * REACH) * (STRIP + 16);
+/// Nodes of a strip: for common families its rows fit a first cache of 32 KiB.
+const STRIP: usize = 192;
 
 /// Repeats a block with `$i` a constant from 1 to [`REACH`]: loops over arrays of registers must not be left as loops.
 macro_rules! unrolled {
@@ -26,6 +26,9 @@ macro_rules! unrolled {
         unrolled!($i = 2 => $block);
         unrolled!($i = 3 => $block);
         unrolled!($i = 4 => $block);
+        unrolled!($i = 5 => $block);
+        unrolled!($i = 6 => $block);
+        unrolled!($i = 7 => $block);
     };
     ($i:ident = $value:literal => $block:block) => {{
         const $i: usize = $value;
@@ -33,15 +36,66 @@ macro_rules! unrolled {
     }};
 }
 
-/// On a line of the cache; where registers are spilled the stack frame is too.
-#[repr(align(64))]
-struct Scratch([f64; SCRATCH]);
+/// Hands the largest j by i of families, four bits each, to a macro: every family of a horizon that reaches at most four
+/// nodes, whatever the volume rule; beyond, the most common one of each reach and one that covers the others.
+macro_rules! profiles {
+    ($with:ident) => {
+        $with!(0x1 0x11 0x12 0x122 0x222 0x223 0x1233 0x2333 0x2334 0x12344 0x13344 0x23444 0x34444
+            0x234555 0x345555 0x2455666 0x3556666 0x24566777 0x45677777)
+    };
+}
+pub(super) use profiles;
 
-/// The weights in places that the compiler knows.
+macro_rules! list {
+    ($($tops:literal)*) => { [$($tops),*] };
+}
+
+/// The profile that serves a family: its own, or one of its reach with more bonds, whose weights are zero.
+pub fn profile(quadrant: &Quadrant) -> Option<u32> {
+    let serves = |tops: &u32| {
+        let mut all = quadrant.tops.iter().enumerate();
+        top(*tops, 0) == quadrant.reach && all.all(|(i, &own)| own <= top(*tops, i))
+    };
+    profiles!(list).into_iter().find(serves).filter(|_| quadrant.reach <= REACH)
+}
+
+/// The weights in places that the compiler knows, on a line of the cache: where registers are spilled the stack frame is too.
+#[repr(align(64))]
 struct Weights {
-    /// w_xx, w_yy, w_xy by i and j.
+    /// −w_xx, −w_yy, −w_xy by i and j.
     bonds: [[[f64; 3]; REACH + 1]; REACH + 1],
+    /// Σ w_xx, Σ w_yy of the columns i.
     row: [[f64; 2]; REACH + 1],
+}
+
+impl Weights {
+    fn of(quadrant: &Quadrant) -> Self {
+        let mut weights = Self { bonds: [[[0.0; 3]; REACH + 1]; REACH + 1], row: [[0.0; 2]; REACH + 1] };
+        for i in 0..=quadrant.reach {
+            let column = quadrant.column(i);
+            for (to, bond) in weights.bonds[i][1..].iter_mut().zip(column) {
+                *to = bond.map(|weight| -weight);
+            }
+            weights.row[i] = [quadrant.row_x[i], quadrant.row_y[i]];
+        }
+        weights
+    }
+
+    /// −w_xx or −w_yy: the axes may be exchanged, and all weights are one on the diagonal.
+    #[inline(always)]
+    fn direct<V: Lanes>(&self, i: usize, j: usize, axis: usize) -> V {
+        V::splat(match i.cmp(&j) {
+            Ordering::Less => self.bonds[i][j][axis],
+            Ordering::Equal => self.bonds[i][j][2],
+            Ordering::Greater => self.bonds[j][i][1 - axis],
+        })
+    }
+
+    /// −w_xy.
+    #[inline(always)]
+    fn mixed<V: Lanes>(&self, i: usize, j: usize) -> V {
+        V::splat(self.bonds[i.min(j)][i.max(j)][2])
+    }
 }
 
 /// The bonds of nodes that have them all, in some rows; `TOPS` as in [`Quadrant::profile`].
@@ -52,7 +106,7 @@ pub struct Few<'a, S, const TOPS: u32> {
     /// From one component to the next, and from one row to the next.
     pub stride: usize,
     pub row: usize,
-    pub sink: &'a mut S,
+    pub sink: S,
 }
 
 /// The largest j of a bond (i, j).
@@ -60,16 +114,18 @@ const fn top(tops: u32, i: usize) -> usize {
     (tops >> (4 * i) & 15) as usize
 }
 
-/// Vectors that a block of columns writes: one for the node's own column, four for each i with bonds off the row.
-const fn planes(tops: u32) -> usize {
-    let (mut count, mut i) = (1, 1);
-    while i <= REACH {
-        if top(tops, i) > 0 {
-            count += 4;
-        }
-        i += 1;
-    }
-    count
+/// What a block of columns does along an axis.
+#[derive(Clone, Copy)]
+struct Columns<V> {
+    /// The displacements of its nodes, and of those of the next block.
+    here: V,
+    next: V,
+    /// To its nodes.
+    own: V,
+    /// To the nodes i before, by i.
+    before: [V; REACH + 1],
+    /// To those i behind.
+    behind: [V; REACH + 1],
 }
 
 impl<S: Sink, const TOPS: u32> Kernel for Few<'_, S, TOPS> {
@@ -77,10 +133,10 @@ impl<S: Sink, const TOPS: u32> Kernel for Few<'_, S, TOPS> {
 
     #[inline(always)]
     fn run<V: Lanes>(mut self) {
-        let weights = self.weights();
-        let mut scratch = Scratch([0.0; SCRATCH]);
-        for [from, until] in stretches(self.runs, self.row, STRIP) {
-            self.stretch::<V>(&weights, from, until, &mut scratch.0);
+        let weights = Weights::of(self.quadrant);
+        for stretch in stretches(self.runs, self.row, STRIP) {
+            self.stretch::<V, 0>(&weights, stretch);
+            self.stretch::<V, 1>(&weights, stretch);
         }
     }
 }
@@ -88,25 +144,9 @@ impl<S: Sink, const TOPS: u32> Kernel for Few<'_, S, TOPS> {
 impl<S: Sink, const TOPS: u32> Few<'_, S, TOPS> {
     const R: usize = top(TOPS, 0);
 
-    fn weights(&self) -> Weights {
-        let mut weights = Weights { bonds: [[[0.0; 3]; REACH + 1]; REACH + 1], row: [[0.0; 2]; REACH + 1] };
-        for i in 0..=Self::R {
-            let column = self.quadrant.column(i);
-            weights.bonds[i][1..=column.len()].copy_from_slice(column);
-            weights.row[i] = [self.quadrant.row_x[i], self.quadrant.row_y[i]];
-        }
-        weights
-    }
-
-    /// Nodes of one row, at most a strip.
+    /// A component of the force on nodes of one row, at most a strip.
     #[inline(always)]
-    fn stretch<V: Lanes>(
-        &mut self,
-        weights: &Weights,
-        from: usize,
-        until: usize,
-        scratch: &mut [f64; SCRATCH],
-    ) {
+    fn stretch<V: Lanes, const AXIS: usize>(&mut self, weights: &Weights, [from, until]: [usize; 2]) {
         let aligned = from - from % V::N;
         let blocks = (until - aligned).div_ceil(V::N);
         let (u, start) = (self.displacement.values(), self.displacement.start());
@@ -114,149 +154,146 @@ impl<S: Sink, const TOPS: u32> Few<'_, S, TOPS> {
         // One block of columns on each side, reach rows below and above, both components.
         assert!(start + rows + V::N <= aligned, "rows below are seen");
         assert!(aligned + self.stride + rows + (blocks + 1) * V::N <= start + u.len(), "rows above are seen");
-        assert!((blocks + 2) * V::N * planes(TOPS) <= SCRATCH, "a strip fits");
-        // SAFETY: the loads of both stay in the range just asserted, those of the scratch in the strip.
+        // SAFETY: loads stay in the range just asserted; the row itself is seen a block further, since it begins below.
         unsafe {
-            columns::<V, TOPS>(
-                weights,
-                u,
-                aligned - V::N - start,
-                [self.stride, self.row],
-                blocks + 2,
-                scratch,
-            );
-            let lanes = [from - aligned, until - aligned];
-            self.gather::<V, 0>(weights, aligned, blocks, lanes, scratch);
-            self.gather::<V, 1>(weights, aligned, blocks, lanes, scratch);
+            let first = aligned - V::N - start;
+            let here = V::load(u, first + AXIS * self.stride);
+            let last = self.columns::<V, AXIS>(weights, first, here);
+            let mut now = self.columns::<V, AXIS>(weights, first + V::N, last.next);
+            let mut force = now.with::<AXIS, TOPS>(&last);
+            for index in 0..blocks {
+                let at = aligned + index * V::N;
+                let next = self.columns::<V, AXIS>(weights, at + V::N - start, now.next);
+                unrolled!(I => {
+                    if top(TOPS, I) > 0 {
+                        force = force + now.before[I].ahead(next.before[I], I);
+                    }
+                });
+                let place = at + AXIS * self.stride;
+                self.sink.expect::<V>(place + self.row);
+                if 0 < index && index + 1 < blocks {
+                    self.sink.put(place, now.here, force);
+                } else {
+                    let lanes = from.saturating_sub(at)..(until - at).min(V::N);
+                    self.sink.put_lanes(place, now.here, force, lanes);
+                }
+                force = next.with::<AXIS, TOPS>(&now);
+                now = next;
+            }
         }
     }
 
-    /// A component of the force on the nodes of `blocks` blocks from their columns; `lanes` are the first and the end of the
-    /// stretch.
+    /// The columns of the block at `at`, where the displacements along the axis are `here`.
     ///
     /// # Safety
     /// As in [`Self::stretch`].
     #[inline(always)]
-    unsafe fn gather<V: Lanes, const AXIS: usize>(
-        &mut self,
-        weights: &Weights,
-        aligned: usize,
-        blocks: usize,
-        [first, last]: [usize; 2],
-        scratch: &[f64; SCRATCH],
-    ) {
-        let zero = V::splat(0.0);
-        let (u, start) = (self.displacement.values(), self.displacement.start());
-        let block = planes(TOPS) * V::N;
-        let plane = |i: usize| (1 + 4 * (i - 1) + 2 * AXIS) * V::N;
-        let (mut plus, mut minus, mut now) = ([zero; REACH + 1], [zero; REACH + 1], [zero; REACH + 1]);
-        let mut own = zero;
+    unsafe fn columns<V: Lanes, const AXIS: usize>(&self, weights: &Weights, at: usize, here: V) -> Columns<V> {
+        let (zero, row) = (V::splat(0.0), self.row);
+        let (mut sum, mut difference) = ([zero; REACH + 1], [zero; REACH + 1]);
         // SAFETY: the caller's.
-        unsafe {
-            unrolled!(I => {
-                if top(TOPS, I) > 0 {
-                    minus[I] = V::load(scratch, plane(I) + V::N);
-                    plus[I] = V::load(scratch, plane(I) + block);
-                    now[I] = V::load(scratch, plane(I) + V::N + block);
+        let next = unsafe {
+            let [along, across] = [AXIS, 1 - AXIS]
+                .map(|axis| V::anew(self.displacement.values(), at - Self::R * row + axis * self.stride));
+            V::prefetch(along, (2 * Self::R + 1) * row);
+            // −S_j along the force's axis and −D_j across: what is subtracted need not be loaded first.
+            unrolled!(J => {
+                if J <= Self::R {
+                    let (above, below) = ((Self::R + J) * row, (Self::R - J) * row);
+                    sum[J] = (here - V::load(along, above)) + (here - V::load(along, below));
+                    difference[J] = V::load(across, below) - V::load(across, above);
                 }
             });
-            if AXIS == 1 {
-                own = V::load(scratch, block);
-            }
-            let place = aligned + AXIS * self.stride;
-            let mut before = V::load(u, place - V::N - start);
-            let mut here = V::load(u, place - start);
-            for index in 0..blocks {
-                let at = place + index * V::N;
-                let next = (index + 2) * block;
-                let after = V::load(u, at + V::N - start);
-                let mut force = own;
-                if AXIS == 1 {
-                    own = V::load(scratch, next);
+            V::load(along, Self::R * row + V::N)
+        };
+        let mut own = zero;
+        if AXIS == 1 {
+            own = V::splat(weights.bonds[0][1][1]) * sum[1];
+            unrolled!(J => {
+                if J > 1 && J <= Self::R {
+                    own = V::splat(weights.bonds[0][J][1]).mul_add(sum[J], own);
                 }
-                unrolled!(I => {
-                    if I <= top(TOPS, 0) && (AXIS == 0 || top(TOPS, I) > 0) {
-                        let along = (here.ahead(after, I) - here) + (before.ahead(here, V::N - I) - here);
-                        force = V::splat(weights.row[I][AXIS]).mul_add(along, force);
-                    }
-                    if top(TOPS, I) > 0 {
-                        let p = V::load(scratch, next + plane(I));
-                        let m = V::load(scratch, next + plane(I) + V::N);
-                        force = force + (plus[I].ahead(p, I) + minus[I].ahead(now[I], V::N - I));
-                        (plus[I], minus[I], now[I]) = (p, now[I], m);
-                    }
-                });
-                self.sink.expect::<V>(at + self.row);
-                let until = (last - index * V::N).min(V::N);
-                let from = if index == 0 { first } else { 0 };
-                self.sink.put(at, here, force, from..until);
-                before = here;
-                here = after;
-            }
+            });
         }
+        let (mut before, mut behind) = ([zero; REACH + 1], [zero; REACH + 1]);
+        unrolled!(I => {
+            // A column of the bond along x alone does nothing along y.
+            if I <= Self::R && (AXIS == 0 || top(TOPS, I) > 0) {
+                let row = V::splat(weights.row[I][AXIS]);
+                let along = here.ahead(next, I) - here;
+                own = if AXIS == 0 && I == 1 { row * along } else { row.mul_add(along, own) };
+                if top(TOPS, I) > 0 {
+                    let mut even = weights.direct::<V>(I, 1, AXIS) * sum[1];
+                    let mut odd = weights.mixed::<V>(I, 1) * difference[1];
+                    unrolled!(J => {
+                        if J > 1 && J <= top(TOPS, I) {
+                            even = weights.direct::<V>(I, J, AXIS).mul_add(sum[J], even);
+                            odd = weights.mixed::<V>(I, J).mul_add(difference[J], odd);
+                        }
+                    });
+                    before[I] = even + odd;
+                    behind[I] = row.sub_mul(along, even - odd);
+                } else {
+                    behind[I] = row.sub_mul(along, zero);
+                }
+            }
+        });
+        Columns { here, next, own, before, behind }
     }
 }
 
-/// P_i and M_i of both components of each block of columns, and the node's own column.
-///
-/// # Safety
-/// `at` and what lies `blocks` blocks, a component and the reach in rows from it are in `u`.
-#[inline(always)]
-unsafe fn columns<V: Lanes, const TOPS: u32>(
-    weights: &Weights,
-    u: &[f64],
-    at: usize,
-    [stride, row]: [usize; 2],
-    blocks: usize,
-    scratch: &mut [f64; SCRATCH],
-) {
-    let zero = V::splat(0.0);
-    let reach = top(TOPS, 0);
-    for index in 0..blocks {
-        let (at, to) = (at + index * V::N, index * planes(TOPS) * V::N);
-        let (mut sum, mut difference) = ([[zero; 2]; REACH + 1], [[zero; 2]; REACH + 1]);
-        // SAFETY: the caller's.
-        unsafe {
-            let here = [V::load(u, at), V::load(u, at + stride)];
-            V::prefetch(u, at + (reach + 1) * row);
-            V::prefetch(u, at + stride + (reach + 1) * row);
-            unrolled!(J => {
-                if J <= reach {
-                    let (up, down) = (at + J * row, at - J * row);
-                    let above = [V::load(u, up), V::load(u, up + stride)];
-                    let below = [V::load(u, down), V::load(u, down + stride)];
-                    sum[J] = [0, 1].map(|axis| (above[axis] - here[axis]) + (below[axis] - here[axis]));
-                    difference[J] = [0, 1].map(|axis| above[axis] - below[axis]);
+impl<V: Lanes> Columns<V> {
+    /// What its nodes get from it and from the block before.
+    #[inline(always)]
+    fn with<const AXIS: usize, const TOPS: u32>(&self, last: &Self) -> V {
+        let mut force = self.own;
+        unrolled!(I => {
+            if I <= top(TOPS, 0) && (AXIS == 0 || top(TOPS, I) > 0) {
+                force = force + last.behind[I].ahead(self.behind[I], V::N - I);
+            }
+        });
+        force
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forces::family;
+    use crate::kernel::Kernel;
+    use crate::lattice::{Lattice, Stencil};
+    use crate::partial_volume::VolumeRule;
+
+    /// `None` where the lattice resists no shear.
+    fn folded(m: f64, volume_rule: VolumeRule) -> Option<Quadrant> {
+        let lattice = Lattice { kernel: Kernel::Constant, m, volume_rule, calibrated: false };
+        let stencil = Stencil::<2>::new(lattice).ok()?;
+        Some(Quadrant::of(&family(&stencil, 1e9, 1e-3)).expect("a lattice is symmetric"))
+    }
+
+    fn tops(profile: u32) -> Vec<usize> {
+        (0..=top(profile, 0)).map(|i| top(profile, i)).collect()
+    }
+
+    #[test]
+    fn short_families_have_their_own_profile_and_longer_ones_one_that_covers_them() {
+        let mut seen = 0;
+        for rule in VolumeRule::ALL {
+            for m in (10..80).map(|tenths| f64::from(tenths) / 10.0) {
+                let Some(folded) = folded(m, rule) else { continue };
+                seen += 1;
+                let profile = profile(&folded).map(tops);
+                if folded.reach <= 4 {
+                    assert_eq!(profile, Some(folded.tops), "m = {m}, {rule:?}");
+                } else if folded.reach <= REACH {
+                    let profile = profile.unwrap_or_default();
+                    assert_eq!(profile.len(), folded.tops.len(), "m = {m}, {rule:?}");
+                    assert!(profile.iter().zip(&folded.tops).all(|(all, own)| all >= own), "m = {m}, {rule:?}");
+                } else {
+                    assert_eq!(profile, None);
                 }
-            });
-            let mut own = V::splat(weights.bonds[0][1][1]) * sum[1][1];
-            unrolled!(J => {
-                if J > 1 && J <= reach {
-                    own = V::splat(weights.bonds[0][J][1]).mul_add(sum[J][1], own);
-                }
-            });
-            own.store(scratch, to);
-            unrolled!(I => {
-                if top(TOPS, I) > 0 {
-                    let [xx, yy, xy] = weights.bonds[I][1].map(V::splat);
-                    let (mut a, mut c) = (xx * sum[1][0], yy * sum[1][1]);
-                    let (mut b, mut d) = (xy * difference[1][1], xy * difference[1][0]);
-                    unrolled!(J => {
-                        if J > 1 && J <= top(TOPS, I) {
-                            let [xx, yy, xy] = weights.bonds[I][J].map(V::splat);
-                            a = xx.mul_add(sum[J][0], a);
-                            c = yy.mul_add(sum[J][1], c);
-                            b = xy.mul_add(difference[J][1], b);
-                            d = xy.mul_add(difference[J][0], d);
-                        }
-                    });
-                    let to = to + (1 + 4 * (I - 1)) * V::N;
-                    (a + b).store(scratch, to);
-                    (a - b).store(scratch, to + V::N);
-                    (c + d).store(scratch, to + 2 * V::N);
-                    (c - d).store(scratch, to + 3 * V::N);
-                }
-            });
+            }
         }
+        assert!(seen > 150);
     }
 }

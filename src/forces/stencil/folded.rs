@@ -1,7 +1,7 @@
 //! A folded stencil on the nodes of a piece that have all their bonds, and the kernel that serves it.
 
 use super::bondwise::Masked;
-use super::few::Few;
+use super::few::{self, Few};
 use super::line::Line;
 use super::many::Many;
 use super::quadrant::Quadrant;
@@ -32,8 +32,8 @@ impl Folded<'_> {
         macro_rules! by_reach {
             ($($reach:literal)*) => {
                 match quadrant.reach {
-                    $($reach => self.isa.run(Line::<_, $reach> { quadrant, runs, displacement, sink }),)*
-                    _ => self.isa.run(Line::<_, 0> { quadrant, runs, displacement, sink }),
+                    $($reach => self.isa.run(Line::<_, $reach> { quadrant, runs, displacement, sink: sink.lend() }),)*
+                    _ => self.isa.run(Line::<_, 0> { quadrant, runs, displacement, sink: sink.lend() }),
                 }
             };
         }
@@ -44,15 +44,14 @@ impl Folded<'_> {
         let Self { quadrant, runs, displacement, stride, row, .. } = *self;
         macro_rules! by_profile {
             ($($tops:literal)*) => {
-                match quadrant.profile() {
+                match few::profile(quadrant) {
                     $(Some($tops) => {
-                        self.isa.run(Few::<_, $tops> { quadrant, runs, displacement, stride, row, sink });
+                        self.isa.run(Few::<_, $tops> { quadrant, runs, displacement, stride, row, sink: sink.lend() });
                     })*
-                    _ => self.isa.run(Many { quadrant, runs, displacement, stride, row, sink }),
+                    _ => self.isa.run(Many { quadrant, runs, displacement, stride, row, sink: sink.lend() }),
                 }
             };
         }
-        // Every family of a horizon that reaches at most four nodes, whatever the volume rule.
-        by_profile!(0x1 0x11 0x12 0x122 0x222 0x223 0x1233 0x2333 0x2334 0x12344 0x13344 0x23444 0x34444);
+        few::profiles!(by_profile);
     }
 }

@@ -15,7 +15,7 @@ pub struct Line<'a, S, const R: usize> {
     pub quadrant: &'a Quadrant,
     pub runs: &'a [Masked],
     pub displacement: Window<'a>,
-    pub sink: &'a mut S,
+    pub sink: S,
 }
 
 impl<S: Sink, const R: usize> Kernel for Line<'_, S, R> {
@@ -73,7 +73,7 @@ impl<S: Sink, const R: usize> Line<'_, S, R> {
                         force = V::splat(*weight).mul_add(both, force);
                     }
                 }
-                self.sink.put(at, here, force, Self::lanes::<V>(run, at));
+                self.sink.put_lanes(at, here, force, Self::lanes::<V>(run, at));
                 before = here;
                 here = after;
             }
@@ -97,7 +97,7 @@ impl<S: Sink, const R: usize> Line<'_, S, R> {
                     force =
                         V::splat(self.quadrant.row_x[i]).mul_add((forward - here) + (backward - here), force);
                 }
-                self.sink.put(at, here, force, Self::lanes::<V>(run, at));
+                self.sink.put_lanes(at, here, force, Self::lanes::<V>(run, at));
             }
         }
     }

@@ -30,7 +30,7 @@ pub struct Many<'a, S> {
     pub displacement: Window<'a>,
     pub stride: usize,
     pub row: usize,
-    pub sink: &'a mut S,
+    pub sink: S,
 }
 
 /// Vectors of a block of columns.
@@ -183,7 +183,7 @@ impl<S: Sink> Many<'_, S> {
                 }
                 let place = place + axis * self.stride;
                 self.sink.expect::<V>(place + self.row);
-                self.sink.put(place, here, force, lanes.clone());
+                self.sink.put_lanes(place, here, force, lanes.clone());
             }
         }
     }

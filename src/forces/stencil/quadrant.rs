@@ -1,4 +1,4 @@
-//! The weights of a family that is the same on both sides of each axis, folded to one quadrant.
+//! The weights of a family that is the same on both sides of each axis and on both axes, folded to one quadrant.
 //!
 //! The linear law's force on a node, with n = ξ/|ξ|, w_xx = w n_x², w_yy = w n_y², w_xy = w n_x n_y at (i, j) in spacings, is
 //! f_x = Σ w_xx η_x + w_xy η_y, f_y = Σ w_xy η_x + w_yy η_y. Each η is split into a step along y in the neighbour's column
@@ -46,7 +46,7 @@ impl Quadrant {
         for i in 0..side {
             for j in 0..side {
                 let (a, b) = (i32::try_from(i).ok()?, i32::try_from(j).ok()?);
-                if weight(a, b) != weight(a, -b) {
+                if weight(a, b) != weight(a, -b) || D > 1 && weight(a, b) != weight(b, a) {
                     return None;
                 }
                 let Some(weight) = weight(a, b).filter(|_| i + j > 0) else { continue };
@@ -70,12 +70,6 @@ impl Quadrant {
     pub fn column(&self, i: usize) -> &[[f64; 3]] {
         let first = i * (self.reach + 1);
         &self.bonds[first + 1..first + 1 + self.tops[i]]
-    }
-
-    /// The tops, four bits each, where that is enough to name the family.
-    pub fn profile(&self) -> Option<u32> {
-        let few = self.reach <= super::few::REACH && self.tops[0] == self.reach;
-        few.then(|| self.tops.iter().enumerate().map(|(i, &top)| (top as u32) << (4 * i)).sum())
     }
 }
 
