@@ -3,7 +3,8 @@
 
 use crate::constraints::{Edge, Edges};
 use crate::grid::Grid;
-use crate::scene::{Hole, Notch, Scene};
+use crate::obstacles::Obstacles;
+use crate::scene::{Notch, Scene};
 
 /// What lies in a body and its images beyond the edges: mirrored about a place on an axis, or moved along it.
 pub(crate) fn with_images<const D: usize, T: Copy>(
@@ -36,15 +37,16 @@ pub struct Connectivity<const D: usize> {
     grid: Grid<D>,
     edges: Edges<D>,
     /// With their images beyond the edges.
-    notches: Vec<Notch>,
-    /// Likewise.
-    holes: Vec<Hole>,
+    obstacles: Obstacles,
 }
 
 impl<const D: usize> Connectivity<D> {
     pub fn of(scene: &Scene<D>) -> Self {
         let notches = with_images(scene, scene.notches.clone(), Notch::mirrored, Notch::moved);
-        Self { grid: scene.grid(0), edges: scene.edges, notches, holes: scene.voids() }
+        let size = scene.size();
+        let size = [0, 1].map(|axis| size.get(axis).copied().unwrap_or(scene.spacing));
+        let obstacles = Obstacles::new(notches, scene.voids(), size, scene.spacing);
+        Self { grid: scene.grid(0), edges: scene.edges, obstacles }
     }
 
     /// Whether the bond from a node of the body to its neighbour at `offset` exists.
@@ -72,18 +74,10 @@ impl<const D: usize> Connectivity<D> {
             return false;
         }
         let spacing = self.grid.spacing;
-        let margin = (reach + 1) as f64 * spacing;
+        let margin = reach as f64 * spacing;
         let at = |axis: usize| if axis < D { (node[axis] as f64 + 0.5) * spacing } else { 0.0 };
-        let beside = |low: [f64; 2], high: [f64; 2]| {
-            (0..2).any(|axis| at(axis) < low[axis] - margin || at(axis) > high[axis] + margin)
-        };
-        let notch = |notch: &Notch| {
-            let [from, to] = [notch.from, notch.to];
-            beside([0, 1].map(|axis| from[axis].min(to[axis])), [0, 1].map(|axis| from[axis].max(to[axis])))
-        };
-        let hole =
-            |hole: &Hole| beside(hole.centre.map(|x| x - hole.radius), hole.centre.map(|x| x + hole.radius));
-        self.notches.iter().all(notch) && self.holes.iter().all(hole)
+        let ends = |way: f64| [0, 1].map(|axis| at(axis) + way * margin);
+        self.obstacles.clear(ends(-1.0), ends(1.0))
     }
 
     fn is_cut(&self, node: [isize; D], offset: [i32; D]) -> bool {
@@ -94,14 +88,12 @@ impl<const D: usize> Connectivity<D> {
                 if axis < D { at(axis) * spacing } else { 0.0 }
             })
         };
-        let (a, b) = (place(0.0), place(1.0));
-        self.notches.iter().any(|notch| notch.cuts(a, b, spacing))
-            || self.holes.iter().any(|hole| hole.cuts(a, b, spacing))
+        self.obstacles.cut(place(0.0), place(1.0))
     }
 
     /// Whether bonds are missing at free edges only: there are neither notches nor holes.
     pub fn intact(&self) -> bool {
-        self.notches.is_empty() && self.holes.is_empty()
+        self.obstacles.is_empty()
     }
 
     /// The node of the body that a node repeats; `None` beyond a free edge and where no node stands.

@@ -232,7 +232,8 @@ mod tests {
     fn neighbours_are_one_shift_away() {
         let grid = Grid::<2>::new([7, 5], 0.5, 3);
         assert_eq!((grid.stride(), grid.field().len()), (32, 2 * 32 * 11));
-        let lines: Vec<usize> = [100, 1024, 1040, 4096].map(|nodes| Grid::<2>::new([nodes, 5], 0.5, 3).stride() / LINE).into();
+        let lines: Vec<usize> =
+            [100, 1024, 1040, 4096].map(|nodes| Grid::<2>::new([nodes, 5], 0.5, 3).stride() / LINE).into();
         assert_eq!(lines, [20, 132, 132, 516]);
         for node in grid.each() {
             let to = [node[0] - 2, node[1] + 3];

@@ -92,6 +92,7 @@ pub mod march;
 pub mod material;
 pub mod micromodulus;
 pub mod model;
+pub mod obstacles;
 pub mod partial_volume;
 pub mod plan;
 pub mod quadrature;

@@ -48,6 +48,14 @@ fn align<const N: i32>(low: __m512d, high: __m512d) -> __m512d {
     both
 }
 
+/// The same number, of which the compiler knows nothing.
+#[inline(always)]
+fn unseen(mut number: usize) -> usize {
+    // SAFETY: nothing is done.
+    unsafe { asm!("/* {} */", inout(reg) number, options(pure, nomem, nostack, preserves_flags)) };
+    number
+}
+
 macro_rules! arithmetic {
     ($type:ident, $($trait:ident $method:ident $intrinsic:ident;)*) => {$(
         impl $trait for $type {
@@ -140,11 +148,7 @@ impl Lanes for Eight {
     #[inline(always)]
     unsafe fn anew(from: &[f64], at: usize) -> &[f64] {
         debug_assert!(at <= from.len());
-        unsafe {
-            let mut first = from.as_ptr().add(at);
-            asm!("/* {} */", inout(reg) first, options(pure, nomem, nostack, preserves_flags));
-            std::slice::from_raw_parts(first, from.len() - at)
-        }
+        unsafe { from.get_unchecked(unseen(at)..) }
     }
 
     #[inline(always)]
@@ -229,11 +233,7 @@ impl Lanes for Four {
     #[inline(always)]
     unsafe fn anew(from: &[f64], at: usize) -> &[f64] {
         debug_assert!(at <= from.len());
-        unsafe {
-            let mut first = from.as_ptr().add(at);
-            asm!("/* {} */", inout(reg) first, options(pure, nomem, nostack, preserves_flags));
-            std::slice::from_raw_parts(first, from.len() - at)
-        }
+        unsafe { from.get_unchecked(unseen(at)..) }
     }
 
     #[inline(always)]

@@ -23,8 +23,9 @@ fn shares(cases: &[Rates]) -> Figure {
     Figure {
         id: "bench_limits".into(),
         title: "Rates as shares of the machine's limits".into(),
-        caption: "Measured steps per second over the lower of what multiply-adds in registers and what triads over as \
-                  many bytes would allow for the operator's own operations and bytes."
+        caption: "Measured steps per second over the least of what multiply-adds in registers, triads over as many bytes \
+                  and triads in near caches would allow for the operator's own operations, the bytes of a pass and those of \
+                  a step."
             .into(),
         panels,
         columns: 2,
@@ -53,7 +54,7 @@ fn rates(cases: &[Rates]) -> Figure {
     bars.sort_by(|a, b| a.0.total_cmp(&b.0));
     let by_size = Lines::new(
         Axis::log("nodes"),
-        Axis::linear("million node updates per second").including(0.0),
+        Axis::log("million node updates per second"),
         vec![Series::both("plates, m = 3", plates), Series::both("bars, m = 3", bars)],
     );
     let families = points(["plates by family"], |case| case.m, |case| case.bond_updates_per_s);

@@ -1,6 +1,7 @@
 //! What a measurement leaves: `bench.json`, from which `plan` predicts times, and `bench.csv`.
 
 use super::forecast::Forecast;
+use super::growth::growths;
 use super::limits::Limits;
 use super::rates::Rates;
 use crate::input::Refusal;
@@ -55,6 +56,7 @@ impl Suite {
         let more = json!({
             "cpu": cpu_model(),
             "cases": self.cases,
+            "growth": growths(&self.cases),
             "costs": self.costs,
             "predictions": self.forecasts,
         });

@@ -6,6 +6,7 @@ pub mod costs;
 pub mod figures;
 mod fma;
 pub mod forecast;
+pub mod growth;
 pub mod kept;
 pub mod limits;
 pub mod measure;

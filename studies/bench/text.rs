@@ -1,6 +1,7 @@
 //! What was measured as text for a terminal: the limits, then a line for each case.
 
 use super::forecast::Forecast;
+use super::growth::Growth;
 use super::limits::Limits;
 use super::rates::Rates;
 
@@ -67,6 +68,19 @@ pub fn one(case: &Rates) -> String {
         case.steps,
         100.0 * case.spread,
     )
+}
+
+/// How time grows.
+pub fn growths(growths: &[Growth]) -> String {
+    let mut text = String::new();
+    for Growth { with, group, from, to, exponent, interval } in growths {
+        let interval = interval
+            .map_or("no interval".to_owned(), |(low, high)| format!("95 % interval {low:.3} to {high:.3}"));
+        text += &format!(
+            "{group}: the time of a step grows with {with} to the power {exponent:.3}, {interval}, from {from:.3e} to {to:.3e}\n"
+        );
+    }
+    text
 }
 
 /// Predicted against measured.

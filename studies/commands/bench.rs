@@ -5,6 +5,7 @@ use super::say;
 use crate::attachment::Attachment;
 use crate::bench::cases::{Case, Group, M, SIDE, suite};
 use crate::bench::forecast::forecasts;
+use crate::bench::growth::growths;
 use crate::bench::kept::{FOLDER, Suite, one};
 use crate::bench::limits::Limits;
 use crate::bench::measure::{Failure, Measured, Pace, Pools, measure};
@@ -166,7 +167,9 @@ fn as_text(suite: &Suite, alone: &Limits, isa: Isa) -> String {
     if suite.limits.threads > 1 {
         text += &text::limits(alone, isa.word());
     }
-    text + &text::cases(&suite.cases) + &text::forecasts(&suite.forecasts)
+    text += &text::cases(&suite.cases);
+    text += &text::growths(&growths(&suite.cases));
+    text + &text::forecasts(&suite.forecasts)
 }
 
 fn pretty(value: &Value) -> String {

@@ -19,7 +19,7 @@ const STEPS: u64 = 8;
 
 const STEEL: Material = Material { youngs_modulus: 200e9, density: 7850.0 };
 
-/// A periodic body in a slow smooth wave, on a displacement that keeps it from zero.
+/// A body between planes of symmetry in a slow smooth wave, on a displacement that keeps it from zero.
 fn scene<const D: usize>(nodes: [usize; D], m: f64) -> Scene<D> {
     let lattice =
         Lattice { kernel: Kernel::Gaussian { p: 2.0 }, m, volume_rule: VolumeRule::Linear, calibrated: true };
@@ -34,7 +34,7 @@ fn scene<const D: usize>(nodes: [usize; D], m: f64) -> Scene<D> {
     });
     let time = Time { duration: 1e3, step: StepRule::OfLimit(0.5) };
     Scene {
-        edges: Edges([[Edge::Periodic; 2]; D]),
+        edges: Edges([[Edge::MirrorOdd; 2]; D]),
         displacement: displacement.collect(),
         ..Scene::bare(STEEL, body, lattice, nodes, SPACING, time)
     }

@@ -114,9 +114,25 @@ impl Bonds<'_> {
         let Self { bonds, runs, words, displacement, stride, .. } = *self;
         let law = PhantomData::<L>;
         if self.masked {
-            self.isa.run(Bondwise::<_, L, D, true> { bonds, runs, words, displacement, stride, sink: sink.lend(), law });
+            self.isa.run(Bondwise::<_, L, D, true> {
+                bonds,
+                runs,
+                words,
+                displacement,
+                stride,
+                sink: sink.lend(),
+                law,
+            });
         } else {
-            self.isa.run(Bondwise::<_, L, D, false> { bonds, runs, words, displacement, stride, sink: sink.lend(), law });
+            self.isa.run(Bondwise::<_, L, D, false> {
+                bonds,
+                runs,
+                words,
+                displacement,
+                stride,
+                sink: sink.lend(),
+                law,
+            });
         }
     }
 }

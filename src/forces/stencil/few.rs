@@ -188,7 +188,12 @@ impl<S: Sink, const TOPS: u32> Few<'_, S, TOPS> {
     /// # Safety
     /// As in [`Self::stretch`].
     #[inline(always)]
-    unsafe fn columns<V: Lanes, const AXIS: usize>(&self, weights: &Weights, at: usize, here: V) -> Columns<V> {
+    unsafe fn columns<V: Lanes, const AXIS: usize>(
+        &self,
+        weights: &Weights,
+        at: usize,
+        here: V,
+    ) -> Columns<V> {
         let (zero, row) = (V::splat(0.0), self.row);
         let (mut sum, mut difference) = ([zero; REACH + 1], [zero; REACH + 1]);
         // SAFETY: the caller's.
@@ -288,7 +293,10 @@ mod tests {
                 } else if folded.reach <= REACH {
                     let profile = profile.unwrap_or_default();
                     assert_eq!(profile.len(), folded.tops.len(), "m = {m}, {rule:?}");
-                    assert!(profile.iter().zip(&folded.tops).all(|(all, own)| all >= own), "m = {m}, {rule:?}");
+                    assert!(
+                        profile.iter().zip(&folded.tops).all(|(all, own)| all >= own),
+                        "m = {m}, {rule:?}"
+                    );
                 } else {
                     assert_eq!(profile, None);
                 }

@@ -45,13 +45,24 @@ impl<S: Sink, const R: usize> Kernel for Line<'_, S, R> {
 }
 
 impl<S: Sink, const R: usize> Line<'_, S, R> {
-    /// Which lanes of the block at `at` belong to a run.
+    /// Leaves the force on the block at `at`, or on what belongs to the run.
+    ///
+    /// # Safety
+    /// The run lies within the piece.
     #[inline(always)]
-    fn lanes<V: Lanes>(run: &Run, at: usize) -> std::ops::Range<usize> {
-        run.start.saturating_sub(at)..(run.start + run.len - at).min(V::N)
+    unsafe fn put<V: Lanes>(&mut self, run: &Run, at: usize, here: V, force: V) {
+        // SAFETY: the caller's.
+        unsafe {
+            if run.start <= at && at + V::N <= run.start + run.len {
+                self.sink.put(at, here, force);
+            } else {
+                let lanes = run.start.saturating_sub(at)..(run.start + run.len - at).min(V::N);
+                self.sink.put_some(at, here, force, lanes);
+            }
+        }
     }
 
-    /// Neighbours from registers.
+    /// Neighbours from registers: (u(x+i) − u) − (u − u(x−i)), the second as the nodes i before had it.
     ///
     /// # Safety
     /// A block on each side is seen.
@@ -62,20 +73,21 @@ impl<S: Sink, const R: usize> Line<'_, S, R> {
         weights[..=R].copy_from_slice(&self.quadrant.row_x);
         // SAFETY: the caller's.
         unsafe {
-            let mut before = V::load(u, aligned - V::N - start);
+            let before = V::load(u, aligned - V::N - start);
             let mut here = V::load(u, aligned - start);
+            let mut last = along::<V, R>(before, here);
             for at in (aligned..aligned + count).step_by(V::N) {
                 let after = V::load(u, at + V::N - start);
+                let now = along::<V, R>(here, after);
                 let mut force = V::splat(0.0);
                 for (i, weight) in weights.iter().enumerate().skip(1) {
                     if i <= R {
-                        let both = (here.ahead(after, i) - here) + (before.ahead(here, V::N - i) - here);
+                        let both = now[i] - last[i].ahead(now[i], V::N - i);
                         force = V::splat(*weight).mul_add(both, force);
                     }
                 }
-                self.sink.put_lanes(at, here, force, Self::lanes::<V>(run, at));
-                before = here;
-                here = after;
+                self.put(run, at, here, force);
+                (here, last) = (after, now);
             }
         }
     }
@@ -97,8 +109,20 @@ impl<S: Sink, const R: usize> Line<'_, S, R> {
                     force =
                         V::splat(self.quadrant.row_x[i]).mul_add((forward - here) + (backward - here), force);
                 }
-                self.sink.put_lanes(at, here, force, Self::lanes::<V>(run, at));
+                self.put(run, at, here, force);
             }
         }
     }
+}
+
+/// u(x+i) − u on the nodes of a block, by i.
+#[inline(always)]
+fn along<V: Lanes, const R: usize>(here: V, after: V) -> [V; SHIFTED + 1] {
+    let mut along = [V::splat(0.0); SHIFTED + 1];
+    for (i, along) in along.iter_mut().enumerate().skip(1) {
+        if i <= R {
+            *along = here.ahead(after, i) - here;
+        }
+    }
+    along
 }
