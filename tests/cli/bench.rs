@@ -49,9 +49,9 @@ fn rates_count_what_a_step_does() {
         assert!((bonds / pairs - 1.0).abs() < 1e-12, "{bonds}");
         assert!((1e9 * gflop / (22.0 * pairs + 6.0) - 1.0).abs() < 1e-12, "{gflop}");
     }
-    // 24 + 5 operations on a node's own column, 24 + 16 + 8 on the others, 3 · 14 to gather, 6 to move.
+    // 24 + 5 operations on a node's own column, 24 + 16 + 8 on the others, 3 · 14 to gather, 6 to move, one saved.
     let gflop = over_nodes(&measured(&["--isa", "baseline"]), "gflop_per_s");
-    assert!((1e9 * gflop / 125.0 - 1.0).abs() < 1e-12, "{gflop}");
+    assert!((1e9 * gflop / 124.0 - 1.0).abs() < 1e-12, "{gflop}");
 }
 
 #[test]
