@@ -87,6 +87,8 @@ pub enum Command {
     },
     /// How fast bodies are marched, beside what the machine can do: the whole suite, or one plate
     Bench(BenchOptions),
+    /// What accuracy costs: the cheapest settings whose waves are as accurate as asked
+    Cost(CostOptions),
     /// The JSON schema of study files
     Schema,
     /// A completion script for your shell
@@ -155,6 +157,38 @@ pub struct BenchOptions {
     /// No progress on the terminal
     #[arg(long)]
     pub no_progress: bool,
+}
+
+/// Options of `cost`.
+#[derive(Debug, Clone, Args)]
+pub struct CostOptions {
+    /// Search kernels, m, volume rules and calibrations of plates
+    #[arg(long, required = true)]
+    pub advise: bool,
+    /// Largest phase error, worst over directions and both branches: 0.01 is one per cent
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    pub error: f64,
+    /// Length of the shortest waves that matter, in m
+    #[arg(long, value_name = "L", allow_negative_numbers = true)]
+    pub wavelength: f64,
+    /// Settings of at least this m only
+    #[arg(long, value_name = "M", conflicts_with = "horizon", allow_negative_numbers = true)]
+    pub min_m: Option<f64>,
+    /// Settings of this horizon only, in m
+    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    pub horizon: Option<f64>,
+    /// Dilatational speed of the plate in m/s; that of steel in plane stress if not given
+    #[arg(long, value_name = "C", default_value_t = 5354.0, allow_negative_numbers = true)]
+    pub speed: f64,
+    /// Threads to use; results do not depend on it
+    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Machine-readable
+    #[arg(long)]
+    pub json: bool,
+    /// Folder of the results, which go to advice/
+    #[arg(long, value_name = "DIR", default_value = "reports")]
+    pub out: PathBuf,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -10,6 +10,7 @@ mod bibliography;
 mod cli;
 mod commands;
 mod convergence;
+mod cost;
 mod dispersion;
 mod dsif;
 mod input;
@@ -72,6 +73,7 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
             print(&plan::plan(&study, json, profile, &set, &out)?)
         }
         Command::Bench(options) => commands::bench::bench(&options),
+        Command::Cost(options) => commands::cost::cost(&options),
         Command::Schema => print(&format!("{:#}\n", schema::schema())),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -62,9 +62,29 @@ fn its_commands_for_speed_run() {
 }
 
 #[test]
+fn its_advice_is_what_comes_out() {
+    let text = readme();
+    let command = text.lines().find(|line| line.starts_with("pd-verify cost --advise")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let said = program()
+        .args(command.split_whitespace().skip(1))
+        .args(["--json", "--out"])
+        .arg(folder.path())
+        .assert()
+        .success();
+    let json: serde_json::Value = serde_json::from_slice(&said.get_output().stdout).unwrap();
+    let over = json["settings"][0]["bond_updates_per_m2_s"].as_f64().unwrap()
+        / json["unbound"]["bond_updates_per_m2_s"].as_f64().unwrap();
+    let row = text.lines().find(|line| line.starts_with("| 1 % |")).unwrap();
+    assert!(row.contains(&format!("{over:.1} times")), "{over}: {row}");
+}
+
+#[test]
 fn its_commands_and_options_exist() {
     let text = readme();
-    for command in ["dispersion", "bar", "bench", "run", "list", "explain", "plan", "schema", "completions"] {
+    for command in
+        ["dispersion", "bar", "bench", "cost", "run", "list", "explain", "plan", "schema", "completions"]
+    {
         assert!(text.contains(command), "the README does not name {command}");
         program().args([command, "--help"]).assert().success();
     }

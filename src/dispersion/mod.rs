@@ -3,6 +3,7 @@
 //! A wave e^{i(k·x − ωt)} in ρü = Σ forces gives ρω² as a sum of 1 − cos(k·ξ) over bonds. All frequencies here
 //! are dimensionless: ωΔx/c on a lattice at θ = kΔx, ωδ/c in the continuum at kδ, c the branch's own speed.
 
+pub mod accuracy;
 pub mod bar;
 pub mod continuum;
 pub mod finite_differences;

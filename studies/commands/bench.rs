@@ -1,7 +1,7 @@
 //! `pd-verify bench`: the whole suite of speeds, or one case, beside the machine's own limits.
 
 use super::judge::End;
-use super::say;
+use super::{folder, say};
 use crate::attachment::Attachment;
 use crate::bench::cases::{Case, Group, M, SIDE, suite};
 use crate::bench::forecast::forecasts;
@@ -13,10 +13,8 @@ use crate::bench::rates::Rates;
 use crate::bench::{bodies, costs, figures, memory, text};
 use crate::cli::{BenchOptions, BondOperator, Isa};
 use crate::input::Refusal;
-use crate::manifest::Manifest;
 use crate::output::Output;
 use crate::progress::{Progress, interrupted};
-use pd_verify::report::{Drawn, figure_table};
 use pd_verify::scene::{Operator, Scene};
 use serde_json::Value;
 use std::io::{self, Write};
@@ -157,7 +155,7 @@ fn whole_suite(isa: Isa, options: &BenchOptions, output: &Output) -> Result<u8, 
     progress.finish();
     let suite = Suite { limits, cases, costs, forecasts };
     let data = pretty(&suite.json());
-    let problems = written(&suite, &data, isa, options, output);
+    let problems = written(&suite, &data, options, output);
     let text = if options.json { data } else { as_text(&suite, &limits_alone, isa) };
     Ok(printed(&text, problems))
 }
@@ -177,32 +175,10 @@ fn pretty(value: &Value) -> String {
 }
 
 /// Writes the folder; returns what went wrong.
-fn written(suite: &Suite, data: &str, isa: Isa, options: &BenchOptions, output: &Output) -> Vec<String> {
-    let mut problems = Vec::new();
-    let manifest = Manifest::of_this_run(
-        "standard".into(),
-        Vec::new(),
-        options.isa.map(|_| isa.word().into()),
-        Vec::new(),
-    );
+fn written(suite: &Suite, data: &str, options: &BenchOptions, output: &Output) -> Vec<String> {
     let table = suite.table();
-    let mut files = vec![
-        Attachment::text("manifest.json", manifest.json()),
-        Attachment::text("bench.json", data),
-        Attachment::text(table.file.clone(), table.csv()),
-    ];
-    for figure in figures::figures(&suite.cases) {
-        match Drawn::new(&figure) {
-            Ok(drawn) => files.push(Attachment::text(format!("{}.svg", drawn.id), drawn.svg)),
-            Err(error) => problems.push(format!("figure {}: {error}", figure.id)),
-        }
-        let data = figure_table(&figure);
-        files.push(Attachment::text(data.file.clone(), data.csv()));
-    }
-    if let Err(error) = output.replace_folder(FOLDER, &files) {
-        problems.push(format!("cannot write the results: {error}"));
-    }
-    problems
+    let files = vec![Attachment::text("bench.json", data), Attachment::text(table.file.clone(), table.csv())];
+    folder::write(output, FOLDER, options.isa, files, &figures::figures(&suite.cases))
 }
 
 fn printed(text: &str, mut problems: Vec<String>) -> u8 {

@@ -70,7 +70,8 @@ pub fn settings(written: &[String]) -> Result<Vec<Setting>, Refusal> {
 }
 
 /// Names that shipped commands write to.
-const RESERVED: [&str; 10] = [
+const RESERVED: [&str; 11] = [
+    "advice",
     "dispersion",
     "bar",
     "bench",

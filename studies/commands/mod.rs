@@ -1,8 +1,10 @@
 //! What each command does.
 
 pub mod bench;
+pub mod cost;
 pub mod explain;
 mod find;
+mod folder;
 pub mod judge;
 pub mod list;
 pub mod plan;

@@ -2,6 +2,7 @@
 
 mod bench;
 mod commands;
+mod cost;
 mod cracks;
 #[cfg(unix)]
 mod holed;

@@ -1,0 +1,76 @@
+//! `pd-verify cost --advise`: the cheapest settings that are as accurate as asked.
+
+use super::judge::End;
+use super::{folder, say};
+use crate::attachment::Attachment;
+use crate::cli::CostOptions;
+use crate::cost::advice::{Asked, Bound, MS, advise};
+use crate::cost::{figure, text};
+use crate::input::Refusal;
+use crate::output::Output;
+use std::io::{self, Write};
+
+/// The folder below `--out`.
+const FOLDER: &str = "advice";
+
+/// Searches, prints and writes.
+pub fn cost(options: &CostOptions) -> Result<u8, Refusal> {
+    let asked = asked(options)?;
+    let output = Output::open(&options.out, &[FOLDER.to_owned()])?;
+    let pool =
+        rayon::ThreadPoolBuilder::new().num_threads(options.threads.map_or(0, usize::from)).build().map_err(
+            |error| Refusal::new(format!("cannot start threads: {error}")).help("take fewer with --threads"),
+        )?;
+    let advice = pool.install(|| advise(asked));
+    let data = serde_json::to_string_pretty(&text::json(&advice)).expect("plain data") + "\n";
+    let table = text::table(&advice);
+    let files = vec![
+        Attachment::text("advice.json", data.clone()),
+        Attachment::text(table.file.clone(), table.csv()),
+    ];
+    let mut problems = folder::write(&output, FOLDER, None, files, &[figure::figure(&advice)]);
+    let shown = if options.json { data } else { text::text(&advice) };
+    if let Err(error) = say(&shown) {
+        problems.push(format!("cannot print: {error}"));
+    }
+    for problem in &problems {
+        let _ = writeln!(io::stderr(), "error: {problem}");
+    }
+    Ok(match (problems.is_empty(), advice.settings.is_empty()) {
+        (false, _) => End::Computation.code(),
+        (true, true) => End::Fail.code(),
+        (true, false) => 0,
+    })
+}
+
+fn asked(options: &CostOptions) -> Result<Asked, Refusal> {
+    let CostOptions { error, wavelength, speed, min_m, horizon, .. } = *options;
+    let positive = |name: &str, value: f64, example: &str| {
+        if value > 0.0 && value.is_finite() {
+            return Ok(value);
+        }
+        Err(Refusal::new(format!("--{name} {value} is not a positive number"))
+            .help(format!("as in --{name} {example}")))
+    };
+    let error = positive("error", error, "0.01")?;
+    if error >= 1.0 {
+        return Err(Refusal::new(format!("--error {error} lets waves be wrong by as much as they are"))
+            .help("give a part of the phase speed, as in --error 0.01 for one per cent"));
+    }
+    let most = MS[MS.len() - 1];
+    let bound = match (min_m, horizon) {
+        (Some(least), _) if !(0.0..=most).contains(&least) => {
+            return Err(Refusal::new(format!("--min-m {least} is outside what is searched"))
+                .help(format!("m is searched from {} to {most}", MS[0])));
+        }
+        (Some(least), _) => Bound::LeastM(least),
+        (None, Some(horizon)) => Bound::Horizon(positive("horizon", horizon, "0.004")?),
+        (None, None) => Bound::Free,
+    };
+    Ok(Asked {
+        error,
+        wavelength: positive("wavelength", wavelength, "0.02")?,
+        speed: positive("speed", speed, "5354")?,
+        bound,
+    })
+}
