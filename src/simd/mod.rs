@@ -104,6 +104,11 @@ impl Isa {
         self.set
     }
 
+    /// How many f64 its kernels handle side by side.
+    pub fn lanes(self) -> usize {
+        if self.set == InstructionSet::Avx512 { 8 } else { 4 }
+    }
+
     fn new(set: InstructionSet) -> Self {
         Self {
             set,

@@ -17,9 +17,9 @@ fn on<const D: usize>(scene: &Scene<D>, isa: Isa) -> Model<D> {
 
 /// One family for each kernel of the stencil: those of registers, those of memory, and one too long for either.
 fn plates() -> Vec<Scene<2>> {
-    let families = [1.5, 2.0, 2.4, 3.0, 3.2, 3.7, 4.0, 5.0, 9.0].map(|m| (m, VolumeRule::Linear));
+    let families = [1.5, 2.0, 2.4, 3.0, 3.2, 3.7, 4.0, 5.0, 6.0, 7.0, 9.0].map(|m| (m, VolumeRule::Linear));
     let full = [2.0, 3.0, 4.0].map(|m| (m, VolumeRule::Full));
-    let exact = [1.7, 3.6, 4.4].map(|m| (m, VolumeRule::ExactArea));
+    let exact = [1.7, 3.6, 4.4, 5.2, 6.4, 7.4].map(|m| (m, VolumeRule::ExactArea));
     let mut all = Vec::new();
     for (m, rule) in families.into_iter().chain(full).chain(exact).chain([(48.0, VolumeRule::Full)]) {
         let nodes = if m > 40.0 { [101, 49] } else { [277, 27] };

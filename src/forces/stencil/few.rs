@@ -50,13 +50,14 @@ macro_rules! list {
     ($($tops:literal)*) => { [$($tops),*] };
 }
 
-/// The profile that serves a family: its own, or one of its reach with more bonds, whose weights are zero.
-pub fn profile(quadrant: &Quadrant) -> Option<u32> {
+/// The profile that serves a family on so many lanes: its own, or one of its reach with more bonds, whose weights are zero.
+/// `None` where shifts of registers do not reach as far.
+pub fn profile(quadrant: &Quadrant, lanes: usize) -> Option<u32> {
     let serves = |tops: &u32| {
         let mut all = quadrant.tops.iter().enumerate();
         top(*tops, 0) == quadrant.reach && all.all(|(i, &own)| own <= top(*tops, i))
     };
-    profiles!(list).into_iter().find(serves).filter(|_| quadrant.reach <= REACH)
+    profiles!(list).into_iter().find(serves).filter(|_| quadrant.reach <= lanes)
 }
 
 /// The weights in places that the compiler knows, on a line of the cache: where registers are spilled the stack frame is too.
@@ -132,17 +133,27 @@ impl<S: Sink, const TOPS: u32> Kernel for Few<'_, S, TOPS> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Lanes>(mut self) {
-        let weights = Weights::of(self.quadrant);
-        for stretch in stretches(self.runs, self.row, STRIP) {
-            self.stretch::<V, 0>(&weights, stretch);
-            self.stretch::<V, 1>(&weights, stretch);
+    fn run<V: Lanes>(self) {
+        // What lies further than a block is not seen by a shift; such families go elsewhere, and nothing is compiled here.
+        if V::N >= Self::R {
+            self.rows::<V>();
+        } else {
+            unreachable!("a family that reaches beyond a block of lanes");
         }
     }
 }
 
 impl<S: Sink, const TOPS: u32> Few<'_, S, TOPS> {
     const R: usize = top(TOPS, 0);
+
+    #[inline(always)]
+    fn rows<V: Lanes>(mut self) {
+        let weights = Weights::of(self.quadrant);
+        for stretch in stretches(self.runs, self.row, STRIP) {
+            self.stretch::<V, 0>(&weights, stretch);
+            self.stretch::<V, 1>(&weights, stretch);
+        }
+    }
 
     /// A component of the force on nodes of one row, at most a strip.
     #[inline(always)]
@@ -287,7 +298,8 @@ mod tests {
             for m in (10..80).map(|tenths| f64::from(tenths) / 10.0) {
                 let Some(folded) = folded(m, rule) else { continue };
                 seen += 1;
-                let profile = profile(&folded).map(tops);
+                assert_eq!(profile(&folded, 4).is_some(), folded.reach <= 4);
+                let profile = profile(&folded, 8).map(tops);
                 if folded.reach <= 4 {
                     assert_eq!(profile, Some(folded.tops), "m = {m}, {rule:?}");
                 } else if folded.reach <= REACH {

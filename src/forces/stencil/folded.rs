@@ -44,7 +44,7 @@ impl Folded<'_> {
         let Self { quadrant, runs, displacement, stride, row, .. } = *self;
         macro_rules! by_profile {
             ($($tops:literal)*) => {
-                match few::profile(quadrant) {
+                match few::profile(quadrant, self.isa.lanes()) {
                     $(Some($tops) => {
                         self.isa.run(Few::<_, $tops> { quadrant, runs, displacement, stride, row, sink: sink.lend() });
                     })*

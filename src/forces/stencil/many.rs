@@ -1,7 +1,7 @@
 //! The plane stencil of families of any reach: the sums of a column pass through the first cache.
 //!
-//! The same sums as in [`super::few`], with loops over the family in place of registers: two i at a time, so that enough
-//! sums grow side by side, and neighbours gathered by loads that are not aligned.
+//! The same sums as in [`super::few`] in the same order, so with the same bits, with loops over the family in place of
+//! registers: two i at a time, so that enough sums grow side by side, and neighbours gathered by loads that are not aligned.
 
 use super::bondwise::{Masked, stretches};
 use super::quadrant::Quadrant;
@@ -19,7 +19,7 @@ const MOST: usize = 64;
 #[repr(align(64))]
 struct Scratch([f64; SCRATCH]);
 
-/// S and D of a column: x and y of the sums, x and y of the differences, by j.
+/// −S and −D of a column: x and y of the sums, x and y of the differences, by j.
 #[repr(align(64))]
 struct Column([[f64; 8]; 4 * (MOST + 1)]);
 
@@ -35,7 +35,12 @@ pub struct Many<'a, S> {
 
 /// Vectors of a block of columns.
 fn planes(quadrant: &Quadrant) -> usize {
-    1 + 4 * quadrant.reach
+    2 + 4 * quadrant.reach
+}
+
+/// Where what the columns do to the nodes i behind begins, along x; then along y, then what they do to those before.
+fn plane(i: usize, width: usize) -> usize {
+    (2 + 4 * (i - 1)) * width
 }
 
 /// Whether the scratch holds a strip as wide as a border beside its two borders, or nearly.
@@ -93,7 +98,7 @@ impl<S: Sink> Many<'_, S> {
         }
     }
 
-    /// P_i and M_i of a block of columns, to place `to` of each plane.
+    /// What a block of columns does, to place `to` of each plane.
     ///
     /// # Safety
     /// As in [`Self::stretch`].
@@ -105,8 +110,9 @@ impl<S: Sink> Many<'_, S> {
         scratch: &mut [f64; SCRATCH],
         column: &mut Column,
     ) {
-        let reach = self.quadrant.reach;
-        // SAFETY: the caller's; a column holds the largest reach.
+        let quadrant = self.quadrant;
+        let reach = quadrant.reach;
+        // SAFETY: the caller's; a column holds the largest reach; the row itself is seen further, since it begins below.
         unsafe {
             let u = self.displacement.values();
             for axis in 0..2 {
@@ -115,37 +121,51 @@ impl<S: Sink> Many<'_, S> {
                 V::prefetch(u, at + (reach + 1) * self.row);
                 for j in 1..=reach {
                     let (above, below) = (V::load(u, at + j * self.row), V::load(u, at - j * self.row));
-                    ((above - here) + (below - here)).store(&mut column.0[4 * j + axis], 0);
-                    (above - below).store(&mut column.0[4 * j + 2 + axis], 0);
+                    ((here - above) + (here - below)).store(&mut column.0[4 * j + axis], 0);
+                    (below - above).store(&mut column.0[4 * j + 2 + axis], 0);
                 }
             }
             let lines = column.0.as_chunks::<4>().0;
-            let mut own = V::splat(0.0);
-            for ([_, yy, _], line) in self.quadrant.column(0).iter().zip(&lines[1..]) {
-                own = V::splat(*yy).mul_add(V::load(&line[1], 0), own);
+            let mut own_y = V::splat(0.0);
+            for (j, [_, yy, _]) in quadrant.column(0).iter().enumerate() {
+                let (weight, sum) = (V::splat(-yy), V::load(&lines[1 + j][1], 0));
+                own_y = if j == 0 { weight * sum } else { weight.mul_add(sum, own_y) };
             }
-            own.store(scratch, to);
+            let here = [V::load(u, at), V::load(u, at + self.stride)];
+            let mut own = [V::splat(0.0), own_y];
             for i in (1..=reach).step_by(2) {
                 // Two columns, the second of which is no longer than the first.
-                let long = self.quadrant.column(i);
-                let short = if i < reach { self.quadrant.column(i + 1) } else { &[] };
+                let long = quadrant.column(i);
+                let short = if i < reach { quadrant.column(i + 1) } else { &[] };
                 let (both, rest) = long.split_at(short.len());
                 let mut sums = [[V::splat(0.0); 4]; 2];
-                for ((one, other), line) in both.iter().zip(short).zip(&lines[1..]) {
-                    add(one, line, &mut sums[0]);
-                    add(other, line, &mut sums[1]);
+                for (j, ((one, other), line)) in both.iter().zip(short).zip(&lines[1..]).enumerate() {
+                    add(one, line, j == 0, &mut sums[0]);
+                    add(other, line, j == 0, &mut sums[1]);
                 }
-                for (one, line) in rest.iter().zip(&lines[1 + short.len()..]) {
-                    add(one, line, &mut sums[0]);
+                for (j, (one, line)) in rest.iter().zip(&lines[1 + short.len()..]).enumerate() {
+                    add(one, line, short.len() + j == 0, &mut sums[0]);
                 }
-                for (i, [a, b, c, d]) in (i..=reach).zip(sums) {
-                    let to = to + (1 + 4 * (i - 1)) * width;
-                    (a + b).store(scratch, to);
-                    (a - b).store(scratch, to + width);
-                    (c + d).store(scratch, to + 2 * width);
-                    (c - d).store(scratch, to + 3 * width);
+                for (i, [even_x, odd_x, even_y, odd_y]) in (i..=reach).zip(sums) {
+                    let (to, off) = (to + plane(i, width), quadrant.tops[i] > 0);
+                    let rows = [quadrant.row_x[i], quadrant.row_y[i]].map(V::splat);
+                    let along = |axis: usize| V::load(u, at + axis * self.stride + i) - here[axis];
+                    let along_x = along(0);
+                    own[0] = if i == 1 { rows[0] * along_x } else { rows[0].mul_add(along_x, own[0]) };
+                    if off {
+                        let along_y = along(1);
+                        own[1] = rows[1].mul_add(along_y, own[1]);
+                        rows[0].sub_mul(along_x, even_x - odd_x).store(scratch, to);
+                        rows[1].sub_mul(along_y, even_y - odd_y).store(scratch, to + width);
+                        (even_x + odd_x).store(scratch, to + 2 * width);
+                        (even_y + odd_y).store(scratch, to + 3 * width);
+                    } else {
+                        rows[0].sub_mul(along_x, V::splat(0.0)).store(scratch, to);
+                    }
                 }
             }
+            own[0].store(scratch, to);
+            own[1].store(scratch, to + width);
         }
     }
 
@@ -166,22 +186,16 @@ impl<S: Sink> Many<'_, S> {
         // SAFETY: the caller's.
         unsafe {
             for axis in 0..2 {
-                let (u, here_at) =
-                    (self.displacement.values(), place + axis * self.stride - self.displacement.start());
-                let here = V::load(u, here_at);
-                let row = if axis == 0 { &quadrant.row_x } else { &quadrant.row_y };
-                let mut force = if axis == 1 { V::load(scratch, at) } else { V::splat(0.0) };
-                for (i, weight) in row.iter().enumerate().skip(1) {
-                    let (forward, backward) = (V::load(u, here_at + i), V::load(u, here_at - i));
-                    force = V::splat(*weight).mul_add((forward - here) + (backward - here), force);
-                    if quadrant.tops[i] > 0 {
-                        let plane = (1 + 4 * (i - 1) + 2 * axis) * width;
-                        let plus = V::load(scratch, plane + at + i);
-                        let minus = V::load(scratch, plane + width + at - i);
-                        force = force + (plus + minus);
-                    }
+                let acts = |i: &usize| axis == 0 || quadrant.tops[*i] > 0;
+                let mut force = V::load(scratch, axis * width + at);
+                for i in (1..=quadrant.reach).filter(acts) {
+                    force = force + V::load(scratch, plane(i, width) + axis * width + at - i);
+                }
+                for i in (1..=quadrant.reach).filter(|&i| quadrant.tops[i] > 0) {
+                    force = force + V::load(scratch, plane(i, width) + (2 + axis) * width + at + i);
                 }
                 let place = place + axis * self.stride;
+                let here = V::load(self.displacement.values(), place - self.displacement.start());
                 self.sink.expect::<V>(place + self.row);
                 self.sink.put_lanes(place, here, force, lanes.clone());
             }
@@ -189,16 +203,16 @@ impl<S: Sink> Many<'_, S> {
     }
 }
 
-/// A bond (i, j) to A, B of x and A, B of y, from the j-th line of a column.
+/// A bond (i, j) to the even and odd parts of x and y, from the j-th line of a column; the first is a product.
 #[inline(always)]
-fn add<V: Lanes>(weights: &[f64; 3], line: &[[f64; 8]; 4], sums: &mut [V; 4]) {
-    let [xx, yy, xy] = weights.map(V::splat);
+fn add<V: Lanes>(weights: &[f64; 3], line: &[[f64; 8]; 4], first: bool, sums: &mut [V; 4]) {
+    let [xx, yy, xy] = weights.map(|weight| V::splat(-weight));
     // SAFETY: eight numbers each.
     let [sx, sy, dx, dy] = unsafe { [0, 1, 2, 3].map(|of| V::load(&line[of], 0)) };
-    sums[0] = xx.mul_add(sx, sums[0]);
-    sums[1] = xy.mul_add(dy, sums[1]);
-    sums[2] = yy.mul_add(sy, sums[2]);
-    sums[3] = xy.mul_add(dx, sums[3]);
+    let terms = [(xx, sx), (xy, dy), (yy, sy), (xy, dx)];
+    for (sum, (weight, value)) in sums.iter_mut().zip(terms) {
+        *sum = if first { weight * value } else { weight.mul_add(value, *sum) };
+    }
 }
 
 #[cfg(test)]
