@@ -1,0 +1,204 @@
+//! A bar or a plate with a rough start, marched at any time step, seen whole.
+
+use crate::dispersion::words::BodyName;
+use crate::subject::Subject;
+use pd_verify::fastest::Fastest;
+use pd_verify::forces::surface::Correction;
+use pd_verify::lattice::{Lattice, Stencil};
+use pd_verify::material::{Body, Material};
+use pd_verify::plan::{Plan, stable_time_step};
+use pd_verify::record::{Failure, Record};
+use pd_verify::scene::{Initial, NotchAsked, Positive, Probe, Scene, Shape, StepRule, Time, Watch, Wrong};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A body as written: free edges, and in a plate notches.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FreeBodyAsked {
+    pub is: BodyName,
+    /// Cells along each axis: one number for a bar, two for a plate.
+    pub nodes: Vec<usize>,
+    pub dx_m: Positive,
+    /// Cuts through a plate.
+    #[serde(default)]
+    pub notch: Vec<NotchAsked>,
+    pub surface_correction: Option<Correction>,
+}
+
+/// A body of either dimension.
+#[derive(Debug, Clone)]
+pub enum FreeBody {
+    Bar(Scene<1>),
+    Plate(Scene<2>),
+}
+
+/// What was seen of a whole body: the step of each look, and the displacements of all nodes in m, component by component.
+pub type Looks = Vec<(u64, Vec<f64>)>;
+
+/// A fastest mode of either dimension.
+pub struct Mode {
+    /// In 1/s.
+    pub omega: f64,
+    /// As [`Looks`] order displacements; the sum of the squares is 1.
+    pub shape: Vec<f64>,
+}
+
+/// How a body is marched: Δt in s, so many steps, from one look to the next.
+#[derive(Debug, Clone, Copy)]
+pub struct Pace {
+    pub seconds: f64,
+    pub steps: u64,
+    pub every: u64,
+}
+
+/// Largest displacement of the start, in spacings.
+const SMALL: f64 = 1e-6;
+const LOOK: &str = "body";
+
+impl FreeBodyAsked {
+    /// The body of a lattice, of section 1, or what is wrong with it.
+    pub fn check(&self, material: Material, lattice: Lattice) -> Result<FreeBody, Wrong> {
+        let (body, dx) = (Body::from(self.is), self.dx_m.0);
+        match (body, &self.nodes[..]) {
+            (Body::Bar, &[along]) if self.notch.is_empty() => {
+                Ok(FreeBody::Bar(self.rough(Scene::bare(material, body, lattice, [along], dx, NO_TIME))))
+            }
+            (Body::Bar, &[_]) => {
+                Err(Wrong::new("notch", "a bar has no notches", "leave them out, or take a plate"))
+            }
+            (Body::PlaneStress | Body::PlaneStrain, &[along, across]) => {
+                let size = [along, across].map(|n| n as f64 * dx);
+                let notch = |(index, notch): (usize, &NotchAsked)| {
+                    let inside = |wrong: Wrong| wrong.inside(&format!("notch[{index}]"));
+                    if notch.runs.is_some() {
+                        let message = "a notch that runs changes the body's limit on the way";
+                        return Err(Wrong::new("runs", message, "leave runs out")).map_err(inside);
+                    }
+                    notch.check(size, dx).map_err(inside)
+                };
+                let notches = self.notch.iter().enumerate().map(notch).collect::<Result<_, Wrong>>()?;
+                let bare = Scene::bare(material, body, lattice, [along, across], dx, NO_TIME);
+                Ok(FreeBody::Plate(self.rough(Scene { notches, ..bare })))
+            }
+            (_, nodes) => {
+                let message = format!("{} numbers of nodes for a body of {}", nodes.len(), body.name());
+                Err(Wrong::new("nodes", message, "give one for a bar, two for a plate"))
+            }
+        }
+    }
+
+    /// Waves without symmetry in every component: some of every mode.
+    fn rough<const D: usize>(&self, scene: Scene<D>) -> Scene<D> {
+        let wave = |component: usize, turn: f64| {
+            let along = |axis: usize| (turn + 0.7 * axis as f64) / scene.spacing;
+            let shape = Shape::Wave { wavenumber: std::array::from_fn(along), phase: turn };
+            Initial { component, amplitude: SMALL / 3.0 * scene.spacing, shape }
+        };
+        let turns =
+            |component: usize| [1.3, 2.4, 3.05].map(|turn| wave(component, turn + 0.2 * component as f64));
+        let surface = self.surface_correction.unwrap_or_default();
+        Scene { displacement: (0..D).flat_map(turns).collect(), surface, ..scene }
+    }
+}
+
+/// Of a scene that is given a pace before it is marched.
+const NO_TIME: Time = Time { duration: 1.0, step: StepRule::OfLimit(1.0) };
+
+impl FreeBody {
+    /// The lattice's limit in s, as the judged code finds it.
+    pub fn lattice_limit(&self, subject: &dyn Subject) -> Result<f64, String> {
+        let lost = |unusable: pd_verify::lattice::Unusable| unusable.to_string();
+        Ok(match self {
+            Self::Bar(scene) => {
+                let stencil = Stencil::<1>::new(scene.lattice).map_err(lost)?;
+                subject.bar_time_step(&stencil).sharp * scene.spacing / scene.speed()
+            }
+            Self::Plate(scene) => {
+                let stencil = Stencil::<2>::new(scene.lattice).map_err(lost)?;
+                subject.plane_time_step(&stencil).sharp * scene.spacing / scene.speed()
+            }
+        })
+    }
+
+    /// Plans of marches at shares of the lattice's limit, for so many steps each.
+    pub fn plans(&self, marches: &[(f64, u64)]) -> Result<Vec<Plan>, Wrong> {
+        match self {
+            Self::Bar(scene) => plans(scene, marches),
+            Self::Plate(scene) => plans(scene, marches),
+        }
+    }
+
+    /// The largest time step in s that a plan allows on this body over the lattice's.
+    pub fn planned_share(&self) -> Result<f64, Wrong> {
+        let plan = self.plans(&[(1.0, 1)])?;
+        Ok(1.0 / plan[0].time_step_over_limit)
+    }
+
+    /// Its fastest mode.
+    pub fn fastest(&self, subject: &dyn Subject) -> Result<Mode, String> {
+        match self {
+            Self::Bar(scene) => subject.fastest_bar(scene).map(Mode::of),
+            Self::Plate(scene) => subject.fastest_plate(scene).map(Mode::of),
+        }
+    }
+
+    /// Marches it and looks at it.
+    pub fn march(&self, subject: &dyn Subject, pace: Pace) -> Result<Looks, Failure> {
+        match self {
+            Self::Bar(scene) => subject.march_bar(&paced(scene, pace)).map(|record| looks::<1>(&record)),
+            Self::Plate(scene) => subject.march_plate(&paced(scene, pace)).map(|record| looks::<2>(&record)),
+        }
+    }
+
+    /// Lattice and spacing in m.
+    pub fn lattice(&self) -> (Lattice, f64) {
+        match self {
+            Self::Bar(scene) => (scene.lattice, scene.spacing),
+            Self::Plate(scene) => (scene.lattice, scene.spacing),
+        }
+    }
+
+    /// Cells along x, and components of a node.
+    pub fn columns(&self) -> (usize, usize) {
+        match self {
+            Self::Bar(scene) => (scene.nodes[0], 1),
+            Self::Plate(scene) => (scene.nodes[0], 2),
+        }
+    }
+}
+
+impl Mode {
+    fn of<const D: usize>(fastest: Fastest<D>) -> Self {
+        Self { omega: fastest.omega, shape: fastest.mode.into_flattened() }
+    }
+}
+
+fn plans<const D: usize>(scene: &Scene<D>, marches: &[(f64, u64)]) -> Result<Vec<Plan>, Wrong> {
+    let unusable = |wrong: pd_verify::lattice::Unusable| Wrong::new("", wrong.to_string(), wrong.cure());
+    let limit = stable_time_step(scene, &Stencil::<D>::new(scene.lattice).map_err(unusable)?);
+    let plan = |&(share, steps): &(f64, u64)| {
+        let pace = Pace { seconds: share * limit, steps, every: steps };
+        Plan::below(&paced(scene, pace), limit)
+    };
+    marches.iter().map(plan).collect()
+}
+
+fn paced<const D: usize>(scene: &Scene<D>, pace: Pace) -> Scene<D> {
+    let step = StepRule::Given { seconds: pace.seconds, beyond_limit: true };
+    let watch = Watch::Patch { from: [0.0; D], to: scene.size() };
+    Scene {
+        time: Time { duration: pace.seconds * pace.steps as f64, step },
+        probes: vec![Probe { name: LOOK.into(), watch, every: pace.every }],
+        ..scene.clone()
+    }
+}
+
+/// The displacements of a patch, without the accelerations that stand beside them.
+fn looks<const D: usize>(record: &Record) -> Looks {
+    let Some(trace) = record.trace(LOOK) else { return Vec::new() };
+    let step = |time: f64| (time / record.plan.time_step_s).round() as u64;
+    let displacements =
+        |row: &Vec<f64>| row.chunks_exact(2 * D).flat_map(|node| node[..D].to_vec()).collect();
+    trace.times.iter().zip(&trace.rows).map(|(&time, row)| (step(time), displacements(row))).collect()
+}
