@@ -17,6 +17,8 @@ use thiserror::Error;
 pub struct Fastest<const D: usize> {
     /// In 1/s.
     pub omega: f64,
+    /// Of the next slower mode in 1/s, as far as the iterations know it: from below, and 0 where there is none.
+    pub next_omega: f64,
     /// Displacements of the nodes that there are, row by row; the sum of their squares is 1.
     pub mode: Vec<[f64; D]>,
     /// ‖Kv/ρ − ω²v‖/ω², as the recurrence says: ω is off by about half its square over the gap to the next mode.
@@ -132,10 +134,12 @@ fn lanczos<const D: usize>(body: &Packed<'_, D>, start: Vec<f64>) -> Result<Fast
         }
         let (length, iterations) = (norm(&next), basis.len());
         if iterations % LOOKS == 0 || iterations == most || length == 0.0 {
-            let (square, weights) = largest_of_tridiagonal(&diagonal, &beside);
+            let square = eigenvalue(&diagonal, &beside, 1);
+            let weights = vector(&diagonal, &beside, square);
             let residual = length * weights[iterations - 1].abs() / square;
             if residual <= TOLERANCE {
-                return Ok(combined(&basis, &weights, square, residual));
+                let next_square = eigenvalue(&diagonal, &beside, 2);
+                return Ok(combined(&basis, &weights, [square, next_square], residual));
             }
             if iterations == most || !residual.is_finite() {
                 return Err(NoMode::NotConverged { iterations, residual });
@@ -147,7 +151,12 @@ fn lanczos<const D: usize>(body: &Packed<'_, D>, start: Vec<f64>) -> Result<Fast
     }
 }
 
-fn combined<const D: usize>(basis: &[Vec<f64>], weights: &[f64], square: f64, residual: f64) -> Fastest<D> {
+fn combined<const D: usize>(
+    basis: &[Vec<f64>],
+    weights: &[f64],
+    squares: [f64; 2],
+    residual: f64,
+) -> Fastest<D> {
     let mut vector = vec![0.0; basis[0].len()];
     for (one, weight) in basis.iter().zip(weights) {
         vector.iter_mut().zip(one).for_each(|(x, v)| *x += weight * v);
@@ -155,49 +164,57 @@ fn combined<const D: usize>(basis: &[Vec<f64>], weights: &[f64], square: f64, re
     let length = norm(&vector);
     let nodes = vector.chunks_exact(D);
     let mode = nodes.map(|node| std::array::from_fn(|axis| node[axis] / length)).collect();
-    Fastest { omega: square.sqrt(), mode, residual, iterations: basis.len() }
+    // What has no second eigenvalue ends at the lower end of the search, which is negative.
+    let [omega, next_omega] = squares.map(|square| if square > 0.0 { square.sqrt() } else { 0.0 });
+    Fastest { omega, next_omega, mode, residual, iterations: basis.len() }
 }
 
-/// The largest eigenvalue of a symmetric tridiagonal matrix by bisection, and its vector of length 1 by inverse iteration.
-fn largest_of_tridiagonal(diagonal: &[f64], beside: &[f64]) -> (f64, Vec<f64>) {
-    let off = |row: usize| if row == 0 { 0.0 } else { beside[row - 1] };
-    // Pivots of x − T: all positive where x lies above every eigenvalue.
-    let pivots = |x: f64| {
-        let mut pivots = Vec::with_capacity(diagonal.len());
-        let mut last = f64::INFINITY;
-        for (row, d) in diagonal.iter().enumerate() {
-            last = x - d - off(row) * off(row) / last;
-            pivots.push(last);
-        }
-        pivots
+/// Pivots of x − T of a symmetric tridiagonal matrix T: as many are negative as eigenvalues lie above x.
+fn pivots(diagonal: &[f64], beside: &[f64], x: f64) -> Vec<f64> {
+    let mut last = f64::INFINITY;
+    let pivot = |(row, d): (usize, &f64)| {
+        let off = if row == 0 { 0.0 } else { beside[row - 1] };
+        last = x - d - off * off / last;
+        last
     };
-    let above = |x: f64| pivots(x).iter().all(|pivot| *pivot > 0.0);
-    let size = |row: usize| diagonal[row].abs() + off(row) + beside.get(row).copied().unwrap_or(0.0);
+    diagonal.iter().enumerate().map(pivot).collect()
+}
+
+/// The largest eigenvalue of a symmetric tridiagonal matrix, or the second largest and so on, by bisection, from above.
+fn eigenvalue(diagonal: &[f64], beside: &[f64], rank: usize) -> f64 {
+    let off = |row: Option<usize>| row.and_then(|row| beside.get(row)).copied().unwrap_or(0.0);
+    let size = |row: usize| diagonal[row].abs() + off(row.checked_sub(1)) + off(Some(row));
     let mut high = (0..diagonal.len()).map(size).fold(0.0, f64::max) * (1.0 + 1e-12);
     let mut low = -high;
-    for _ in 0..200 {
+    loop {
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high {
-            break;
+            return high;
         }
-        if above(middle) { high = middle } else { low = middle }
+        let above = pivots(diagonal, beside, middle).iter().filter(|pivot| **pivot <= 0.0).count();
+        if above < rank { high = middle } else { low = middle }
     }
-    let pivots = pivots(high);
+}
+
+/// The vector of length 1 to the largest eigenvalue, by inverse iteration just above it.
+fn vector(diagonal: &[f64], beside: &[f64], largest: f64) -> Vec<f64> {
+    let pivots = pivots(diagonal, beside, largest);
     let mut vector = vec![1.0; diagonal.len()];
     for _ in 0..3 {
         for row in 1..vector.len() {
-            vector[row] += off(row) / pivots[row - 1] * vector[row - 1];
+            vector[row] += beside[row - 1] / pivots[row - 1] * vector[row - 1];
         }
         vector.iter_mut().zip(&pivots).for_each(|(x, pivot)| *x /= pivot);
         for row in (1..vector.len()).rev() {
-            vector[row - 1] += off(row) / pivots[row - 1] * vector[row];
+            vector[row - 1] += beside[row - 1] / pivots[row - 1] * vector[row];
         }
+        // Scaled first: what the first solution has grown by may have no square.
         let largest = vector.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         vector.iter_mut().for_each(|x| *x /= largest);
         let length = norm(&vector);
         vector.iter_mut().for_each(|x| *x /= length);
     }
-    (high, vector)
+    vector
 }
 
 /// In order, whatever the threads do.

@@ -33,14 +33,23 @@ pub enum FreeBody {
     Plate(Scene<2>),
 }
 
-/// What was seen of a whole body: the step of each look, and the displacements of all nodes in m, component by component.
-pub type Looks = Vec<(u64, Vec<f64>)>;
+/// What was seen of a whole body at a step.
+#[derive(Debug, Clone)]
+pub struct Look {
+    pub step: u64,
+    /// Displacements of all nodes in m, node by node along x, then row by row.
+    pub displacement: Vec<f64>,
+    /// Accelerations in m/s².
+    pub acceleration: Vec<f64>,
+}
 
 /// A fastest mode of either dimension.
 pub struct Mode {
     /// In 1/s.
     pub omega: f64,
-    /// As [`Looks`] order displacements; the sum of the squares is 1.
+    /// Of the next slower mode.
+    pub next_omega: f64,
+    /// As a [`Look`] orders displacements; the sum of the squares is 1.
     pub shape: Vec<f64>,
 }
 
@@ -73,7 +82,7 @@ impl FreeBodyAsked {
                     let inside = |wrong: Wrong| wrong.inside(&format!("notch[{index}]"));
                     if notch.runs.is_some() {
                         let message = "a notch that runs changes the body's limit on the way";
-                        return Err(Wrong::new("runs", message, "leave runs out")).map_err(inside);
+                        return Err(inside(Wrong::new("runs", message, "leave runs out")));
                     }
                     notch.check(size, dx).map_err(inside)
                 };
@@ -144,7 +153,7 @@ impl FreeBody {
     }
 
     /// Marches it and looks at it.
-    pub fn march(&self, subject: &dyn Subject, pace: Pace) -> Result<Looks, Failure> {
+    pub fn march(&self, subject: &dyn Subject, pace: Pace) -> Result<Vec<Look>, Failure> {
         match self {
             Self::Bar(scene) => subject.march_bar(&paced(scene, pace)).map(|record| looks::<1>(&record)),
             Self::Plate(scene) => subject.march_plate(&paced(scene, pace)).map(|record| looks::<2>(&record)),
@@ -170,7 +179,7 @@ impl FreeBody {
 
 impl Mode {
     fn of<const D: usize>(fastest: Fastest<D>) -> Self {
-        Self { omega: fastest.omega, shape: fastest.mode.into_flattened() }
+        Self { omega: fastest.omega, next_omega: fastest.next_omega, shape: fastest.mode.into_flattened() }
     }
 }
 
@@ -194,11 +203,14 @@ fn paced<const D: usize>(scene: &Scene<D>, pace: Pace) -> Scene<D> {
     }
 }
 
-/// The displacements of a patch, without the accelerations that stand beside them.
-fn looks<const D: usize>(record: &Record) -> Looks {
+/// What a patch saw, displacements and accelerations apart.
+fn looks<const D: usize>(record: &Record) -> Vec<Look> {
     let Some(trace) = record.trace(LOOK) else { return Vec::new() };
-    let step = |time: f64| (time / record.plan.time_step_s).round() as u64;
-    let displacements =
-        |row: &Vec<f64>| row.chunks_exact(2 * D).flat_map(|node| node[..D].to_vec()).collect();
-    trace.times.iter().zip(&trace.rows).map(|(&time, row)| (step(time), displacements(row))).collect()
+    let look = |(time, row): (&f64, &Vec<f64>)| {
+        let part =
+            |from: usize| row.chunks_exact(2 * D).flat_map(|node| node[from..from + D].to_vec()).collect();
+        let step = (time / record.plan.time_step_s).round() as u64;
+        Look { step, displacement: part(0), acceleration: part(D) }
+    };
+    trace.times.iter().zip(&trace.rows).map(look).collect()
 }

@@ -1,12 +1,13 @@
 //! `asks = "time_step"`: free and notched bodies just below and just above their largest stable time step: bounded below it,
 //! above it growing in the mode that is predicted and as fast, and not taken for a result.
 
-use super::body::{FreeBody, FreeBodyAsked, Looks, Mode, Pace};
+use super::body::{FreeBody, FreeBodyAsked, Look, Mode, Pace};
 use super::growing::{Growing, Grown, norm};
 use super::time_step_report as report;
 use crate::bar::names::names;
 use crate::dispersion::sweep::{LatticeSweep, check_sizes, check_usable};
 use crate::question::{Answer, Claiming, Place, Planned, Question, claim, error_of};
+use crate::rounded::rounded;
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
@@ -52,8 +53,8 @@ pub struct Seen {
     pub below: f64,
     pub above: f64,
     pub mode: Mode,
-    pub bounded: Looks,
-    pub grown: Looks,
+    pub bounded: Vec<Look>,
+    pub grown: Vec<Look>,
     pub growing: Growing,
     pub measured: Grown,
     /// The step at which the march was given up; `None` where it was not.
@@ -127,15 +128,21 @@ impl Question for TimeStepLimit {
                 .at_most(ErrorKind::Relative, 1e-6)
                 .because(Basis::Theory, "exact but for rounding; a frequency off by 1e-9 moves the logarithm by 1e-7, since dφ/d ln ω is 14 at 1.01 of the limit")
                 .source("leapfrog from rest, u(n) = (−1)ⁿ cosh(nφ) u(0), φ = 2 arcosh(ωΔt/2)"),
-            claim(place, "shape", "what 1 − |cos| is left between the body that grew and its fastest mode")
-                .at_most(ErrorKind::Absolute, 1e-3)
-                .because(Basis::Engineering, "after a growth by e^500 a mode that is slower by 2e-4 has fallen behind by e^5; a wrong mode leaves 1")
-                .source("the largest eigenvalue of the body's force operator and its vector"),
+            claim(place, "frequency", "relative difference of the frequency of the body that grew from that of its fastest mode")
+                .at_most(ErrorKind::Relative, 1e-3)
+                .because(Basis::Theory, "after a growth by e^500 a mode slower by a thousandth has fallen behind by e^25 or more, so that what is left is faster than that")
+                .source("the largest eigenvalue of the body's force operator"),
             steps(claim(place, "given_up", "steps between the one at which a displacement leaves the range of numbers and the one at which the march is given up")
                 .at_most(ErrorKind::Absolute, WATCHED)
                 .because(Basis::Theory, "a march looks every 1000 steps at whether all is finite; forces leave the range a hundred steps before displacements do")
                 .source("the same growth, from the part of the start that is in the fastest mode")),
         ]);
+        claims.extend((!self.corrected()).then(|| {
+            claim(place, "shape", "by what the sine of the angle between the body that grew and its fastest mode exceeds what slower modes may hold")
+                .at_most(ErrorKind::Absolute, 1e-6)
+                .because(Basis::Theory, "no slower mode grows faster than the next one, so all hold at most cosh(nφ₂)/cosh(nφ₁) of the start; bodies of which this is above 0.1, the next mode being too near, say nothing; 1e-6 for a mode that is known to 1e-12 over its distance from the next")
+                .source("the two largest eigenvalues of the body's force operator and the first one's vector")
+        }));
         claims
     }
 
@@ -205,7 +212,7 @@ impl TimeStepLimit {
         let said = |failure: Failure| failure.to_string();
         // A prime number of looks or nearly: no period of a mode.
         let bounded = march(below, self.steps, self.steps / LOOKS + 1).map_err(said)?;
-        let start = &bounded.first().ok_or("the body was not seen")?.1;
+        let start = &bounded.first().ok_or("the body was not seen")?.displacement;
         let growing = Growing::new(&mode, above, start);
         let far = (FAR / growing.rate).clamp(1.0, LEAST as f64) as u64;
         let grown =
@@ -247,7 +254,10 @@ impl TimeStepLimit {
             ),
             ("bounded".to_owned(), worst(&|seen| excess(&seen.bounded))),
             ("growth".to_owned(), worst(&|seen| seen.measured.error)),
-            ("shape".to_owned(), worst(&|seen| seen.measured.shape)),
+            (
+                "frequency".to_owned(),
+                worst(&|seen| seen.measured.omega.map(|omega| (omega / seen.mode.omega - 1.0).abs())),
+            ),
             (
                 "given_up".to_owned(),
                 worst(&|seen| {
@@ -262,16 +272,41 @@ impl TimeStepLimit {
             true => ("beyond".to_owned(), worst(&|seen| Some(seen.own_limit / seen.lattice_limit))),
             false => ("own_limit".to_owned(), least(&|seen| seen.own_limit / seen.lattice_limit)),
         });
+        if !self.corrected() {
+            evidence.push(("shape".to_owned(), self.shape(all)));
+        }
         evidence
     }
+
+    /// Of the bodies whose fastest mode stands alone.
+    fn shape(&self, all: &[Seen]) -> Evidence {
+        let said = |seen: &Seen| seen.measured.most.is_some_and(|most| most <= SAYS_NOTHING);
+        let alone = || all.iter().filter(|seen| said(seen));
+        let beyond = |seen: &Seen| {
+            let beyond = seen.measured.sine? - seen.measured.most?;
+            Some(if beyond < 0.0 { 0.0 } else { beyond })
+        };
+        let each: Option<Vec<f64>> = alone().map(beyond).collect();
+        let widest = largest(alone().filter_map(|seen| seen.measured.sine));
+        let note = format!(
+            "{} of {} bodies; sine of the angle at most {}",
+            alone().count(),
+            all.len(),
+            widest.map_or("unknown".into(), rounded)
+        );
+        error_of(each.and_then(largest), note)
+    }
 }
+
+/// What slower modes may hold of a body that says nothing about the shape of the fastest.
+const SAYS_NOTHING: f64 = 0.1;
 
 /// Of a limit that is searched for.
 const ROUNDING: f64 = 1e-9;
 
 /// By what the norm exceeds that of the start at any look, over it; NaN where it is no number.
-pub fn excess(looks: &Looks) -> Option<f64> {
-    let start = norm(&looks.first()?.1);
-    let over = largest(looks.iter().map(|(_, look)| norm(look) / start - 1.0))?;
+pub fn excess(looks: &[Look]) -> Option<f64> {
+    let start = norm(&looks.first()?.displacement);
+    let over = largest(looks.iter().map(|look| norm(&look.displacement) / start - 1.0))?;
     Some(if over < 0.0 { 0.0 } else { over })
 }

@@ -1,7 +1,7 @@
 //! Rows of `stability_time_steps.csv`; norms over steps below and above the limit, and the mode that grows.
 
-use super::body::{FreeBody, Looks};
-use super::growing::norm;
+use super::body::{FreeBody, Look};
+use super::growing::{log_norm, norm};
 use super::time_step::{Seen, TimeStepLimit, excess};
 use crate::bar::names::{LATTICE, lattice_cells};
 use crate::question::Place;
@@ -24,7 +24,9 @@ pub fn table(asked: &TimeStepLimit, all: &[Seen], place: &Place) -> Table {
         "growth_per_step_predicted",
         "growth_per_step_measured",
         "growth_error",
-        "shape_error",
+        "next_over_fastest",
+        "sine_of_angle",
+        "sine_at_most",
         "overflow_step_predicted",
         "given_up_at_step",
     ];
@@ -32,7 +34,7 @@ pub fn table(asked: &TimeStepLimit, all: &[Seen], place: &Place) -> Table {
     for (body, seen) in asked.bodies.iter().zip(all) {
         let mut row: Vec<Cell> = vec![place.case.as_str().into()];
         row.extend(lattice_cells(Some(body.lattice())));
-        row.extend::<[Cell; 13]>([
+        row.extend::<[Cell; 15]>([
             asked.surface.name().into(),
             seen.lattice_limit.into(),
             seen.own_limit.into(),
@@ -43,7 +45,9 @@ pub fn table(asked: &TimeStepLimit, all: &[Seen], place: &Place) -> Table {
             known(libm::exp(seen.growing.rate)).into(),
             known(libm::exp(seen.measured.rate)).into(),
             seen.measured.error.and_then(known).into(),
-            seen.measured.shape.and_then(known).into(),
+            known(seen.mode.next_omega / seen.mode.omega).into(),
+            seen.measured.sine.and_then(known).into(),
+            seen.measured.most.and_then(known).into(),
             known(seen.growing.overflow()).into(),
             seen.given_up.into(),
         ]);
@@ -67,22 +71,17 @@ pub fn figures(asked: &TimeStepLimit, all: &[Seen], place: &Place) -> Vec<Figure
 }
 
 /// The logarithm to base ten of the norm over that of the start.
-fn growth(looks: &Looks) -> Vec<(f64, f64)> {
-    let start = looks.first().map_or(f64::NAN, |(_, look)| norm(look));
-    let size = |look: &[f64]| look.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let of = |look: &[f64]| {
-        let size = size(look);
-        let scaled: Vec<f64> = look.iter().map(|x| x / size).collect();
-        libm::log10(size) + libm::log10(norm(&scaled) / start)
-    };
-    looks.iter().map(|(step, look)| (*step as f64, of(look))).collect()
+fn growth(looks: &[Look]) -> Vec<(f64, f64)> {
+    let start = looks.first().map_or(f64::NAN, |look| log_norm(&look.displacement));
+    let of = |look: &Look| (log_norm(&look.displacement) - start) / std::f64::consts::LN_10;
+    looks.iter().map(|look| (look.step as f64, of(look))).collect()
 }
 
 fn norms(asked: &TimeStepLimit, all: &[Seen], place: &Place) -> Figure {
     let drawn = || all.iter().zip(&asked.names).take(DRAWN).enumerate();
     let below = drawn().map(|(slot, (seen, name))| {
-        let start = seen.bounded.first().map_or(f64::NAN, |(_, look)| norm(look));
-        let points = seen.bounded.iter().map(|(step, look)| (*step as f64, norm(look) / start));
+        let start = seen.bounded.first().map_or(f64::NAN, |look| norm(&look.displacement));
+        let points = seen.bounded.iter().map(|look| (look.step as f64, norm(&look.displacement) / start));
         Series::both(name.clone(), points.collect()).slot(slot)
     });
     let below = Lines::new(
@@ -95,10 +94,10 @@ fn norms(asked: &TimeStepLimit, all: &[Seen], place: &Place) -> Figure {
     let mut above: Vec<Series> = Vec::new();
     for (slot, (seen, name)) in drawn() {
         above.push(Series::markers(name.clone(), growth(&seen.grown)).slot(slot));
-        let share = seen.grown.first().map_or(f64::NAN, |(_, look)| seen.growing.share(look));
+        let share = seen.growing.share();
         let predicted =
             |step: u64| libm::log10(share) + seen.growing.logarithm(step) / std::f64::consts::LN_10;
-        let points = seen.grown.iter().map(|(step, _)| (*step as f64, predicted(*step)));
+        let points = seen.grown.iter().map(|look| (look.step as f64, predicted(look.step)));
         above.push(Series::reference(format!("{name}, predicted"), points.collect()).slot(slot));
     }
     let above =
@@ -114,7 +113,7 @@ fn norms(asked: &TimeStepLimit, all: &[Seen], place: &Place) -> Figure {
 
 /// The larger component of a plate's displacement when it has grown, and the mode predicted.
 fn mode(asked: &TimeStepLimit, seen: &Seen, place: &Place) -> Option<Figure> {
-    let (body, last) = (&asked.bodies[0], &seen.grown.last()?.1);
+    let (body, last) = (&asked.bodies[0], &seen.grown.last()?.displacement);
     let (columns, components) = body.columns();
     let part = |field: &[f64], component: usize| -> Vec<f64> {
         field.iter().skip(component).step_by(components).copied().collect()
