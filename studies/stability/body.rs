@@ -53,6 +53,15 @@ pub struct Mode {
     pub shape: Vec<f64>,
 }
 
+/// What a body kept, by the step of each look.
+pub struct Booked {
+    pub looks: Vec<Look>,
+    /// Kinetic and elastic energy together, in J.
+    pub energies: Vec<(u64, f64)>,
+    /// Length of the momentum in N s.
+    pub momenta: Vec<(u64, f64)>,
+}
+
 /// How a body is marched: Δt in s, so many steps, from one look to the next.
 #[derive(Debug, Clone, Copy)]
 pub struct Pace {
@@ -64,6 +73,10 @@ pub struct Pace {
 /// Largest displacement of the start, in spacings.
 const SMALL: f64 = 1e-6;
 const LOOK: &str = "body";
+const ENERGIES: &str = "energies";
+const MOMENTUM: &str = "momentum";
+/// Looks at the accounts from one look at the whole body to the next.
+const SELDOM: u64 = 10;
 
 impl FreeBodyAsked {
     /// The body of a lattice, of section 1, or what is wrong with it.
@@ -160,6 +173,43 @@ impl FreeBody {
         }
     }
 
+    /// Marches it with all forces booked: whole displacements at a few looks, accounts at all.
+    pub fn booked(&self, subject: &dyn Subject, pace: Pace) -> Result<Booked, Failure> {
+        match self {
+            Self::Bar(scene) => subject.march_bar(&accounted(scene, pace)).map(|record| booked::<1>(&record)),
+            Self::Plate(scene) => {
+                subject.march_plate(&accounted(scene, pace)).map(|record| booked::<2>(&record))
+            }
+        }
+    }
+
+    /// How many neighbours a node has within its lattice, and the sum of their weights in C₁₁/Δx².
+    pub fn weights(&self) -> Result<(usize, f64), String> {
+        let lost = |unusable: pd_verify::lattice::Unusable| unusable.to_string();
+        let lattice = self.lattice().0;
+        match self {
+            Self::Bar(_) => Stencil::<1>::new(lattice).map(|s| (2 * s.bonds.len(), s.row_sum())),
+            Self::Plate(_) => Stencil::<2>::new(lattice).map(|s| (2 * s.bonds.len(), s.row_sum())),
+        }
+        .map_err(lost)
+    }
+
+    /// cΔt/Δx, c the dilatational speed.
+    pub fn courant(&self, time_step: f64) -> f64 {
+        match self {
+            Self::Bar(scene) => scene.speed() * time_step / scene.spacing,
+            Self::Plate(scene) => scene.speed() * time_step / scene.spacing,
+        }
+    }
+
+    /// Of a cell, in kg.
+    pub fn mass(&self) -> f64 {
+        match self {
+            Self::Bar(scene) => scene.material.density * scene.cell_volume(),
+            Self::Plate(scene) => scene.material.density * scene.cell_volume(),
+        }
+    }
+
     /// Lattice and spacing in m.
     pub fn lattice(&self) -> (Lattice, f64) {
         match self {
@@ -213,4 +263,26 @@ fn looks<const D: usize>(record: &Record) -> Vec<Look> {
         Look { step, displacement: part(0), acceleration: part(D) }
     };
     trace.times.iter().zip(&trace.rows).map(look).collect()
+}
+
+/// The same march with the accounts of every look, and the whole body at fewer.
+fn accounted<const D: usize>(scene: &Scene<D>, pace: Pace) -> Scene<D> {
+    let mut scene = paced(scene, Pace { every: SELDOM * pace.every, ..pace });
+    let probe = |name: &str, watch| Probe { name: name.into(), watch, every: pace.every };
+    scene.probes.extend([probe(ENERGIES, Watch::Energies), probe(MOMENTUM, Watch::Momentum)]);
+    scene
+}
+
+fn booked<const D: usize>(record: &Record) -> Booked {
+    // Energies are booked half a step after a look, momenta half a step before.
+    let of = |probe: &str, after: f64, value: fn(&[f64]) -> f64| -> Vec<(u64, f64)> {
+        let Some(trace) = record.trace(probe) else { return Vec::new() };
+        let step = |time: f64| (time / record.plan.time_step_s - after).round() as u64;
+        trace.times.iter().zip(&trace.rows).map(|(&time, row)| (step(time), value(row))).collect()
+    };
+    Booked {
+        looks: looks::<D>(record),
+        energies: of(ENERGIES, 0.5, |row| row[0] + row[1]),
+        momenta: of(MOMENTUM, -0.5, |row| row.iter().map(|p| p * p).sum::<f64>().sqrt()),
+    }
 }

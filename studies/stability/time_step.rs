@@ -5,7 +5,7 @@ use super::body::{FreeBody, FreeBodyAsked, Look, Mode, Pace};
 use super::growing::{Growing, Grown, norm};
 use super::time_step_report as report;
 use crate::bar::names::names;
-use crate::dispersion::sweep::{LatticeSweep, check_sizes, check_usable};
+use crate::dispersion::sweep::LatticeSweep;
 use crate::question::{Answer, Claiming, Place, Planned, Question, claim, error_of};
 use crate::rounded::rounded;
 use crate::subject::Subject;
@@ -14,7 +14,7 @@ use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::forces::surface::Correction;
 use pd_verify::lattice::Lattice;
-use pd_verify::material::Body;
+use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
 use pd_verify::record::Failure;
 use pd_verify::scene::Wrong;
@@ -70,7 +70,7 @@ const FAR: f64 = 500.0;
 const LOOKS: u64 = 60;
 /// Fewer steps end before what grows is no longer a number.
 const LEAST: u64 = 5000;
-/// Nodes for which a mode is found in seconds.
+/// Nodes for which a mode is found in seconds, and that are marched for many steps.
 const MOST_NODES: usize = 5000;
 /// Steps from one look at whether a march is finite to the next.
 const WATCHED: f64 = 1000.0;
@@ -84,18 +84,7 @@ impl Asked for TimeStepAsked {
             let message = format!("{} steps are too few to tell what grows from what does not", self.steps);
             return Err(Wrong::new("steps", message, format!("take {LEAST} or more")));
         }
-        let nodes = self.body.nodes.iter().try_fold(1_usize, |count, &n| count.checked_mul(n));
-        if nodes.is_none_or(|nodes| nodes > MOST_NODES) {
-            let message = "the fastest mode of a body this large is not looked for";
-            return Err(Wrong::new("body.nodes", message, format!("take at most {MOST_NODES} nodes")));
-        }
-        let body = Body::from(self.body.is);
-        let lattices = self.lattice.lattices().map_err(|wrong| wrong.inside("lattice"))?;
-        check_sizes(body, &lattices).map_err(|wrong| wrong.inside("lattice"))?;
-        check_usable(body, &lattices).map_err(|wrong| wrong.inside("lattice"))?;
-        let inside = |wrong: Wrong| wrong.inside("body");
-        let made = |lattice: &Lattice| self.body.check(material, *lattice).map_err(inside);
-        let bodies = lattices.iter().map(made).collect::<Result<Vec<_>, Wrong>>()?;
+        let (lattices, bodies) = bodies(&self.body, &self.lattice, material)?;
         // Above the limit a body grows by e in some 3.5 steps; the own limit, which sets them, is not known yet.
         let marches = [(BELOW, self.steps), (ABOVE, 2000), (ABOVE, 3000)];
         let (mut plans, mut planned) = (Vec::new(), Vec::new());
@@ -300,6 +289,23 @@ impl TimeStepLimit {
 
 /// What slower modes may hold of a body that says nothing about the shape of the fastest.
 const SAYS_NOTHING: f64 = 0.1;
+
+/// The lattices of a sweep, and the body that is asked for of each.
+pub fn bodies(
+    asked: &FreeBodyAsked,
+    sweep: &LatticeSweep,
+    material: Material,
+) -> Result<(Vec<Lattice>, Vec<FreeBody>), Wrong> {
+    let nodes = asked.nodes.iter().try_fold(1_usize, |count, &n| count.checked_mul(n));
+    if nodes.is_none_or(|nodes| nodes > MOST_NODES) {
+        let message = "a body this large is not marched for so many steps";
+        return Err(Wrong::new("body.nodes", message, format!("take at most {MOST_NODES} nodes")));
+    }
+    let lattices = sweep.usable(Body::from(asked.is)).map_err(|wrong| wrong.inside("lattice"))?;
+    let made = |lattice: &Lattice| asked.check(material, *lattice).map_err(|wrong| wrong.inside("body"));
+    let bodies = lattices.iter().map(made).collect::<Result<Vec<_>, Wrong>>()?;
+    Ok((lattices, bodies))
+}
 
 /// Of a limit that is searched for.
 const ROUNDING: f64 = 1e-9;

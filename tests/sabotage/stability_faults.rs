@@ -6,15 +6,19 @@ use crate::subject::{PdVerify, Subject};
 use pd_verify::dispersion::timestep::TimeStep;
 use pd_verify::fastest::Fastest;
 use pd_verify::forces::surface::Correction;
+use pd_verify::forces::{BodyForce, Damping};
 use pd_verify::lattice::Stencil;
 use pd_verify::record::{Failure, Record};
-use pd_verify::scene::{Scene, StepRule};
+use pd_verify::scene::{Axis, HistoryAsked, Positive, Scene, StepRule};
+use std::sync::Arc;
 
 const STEPS: &[&str] = &["stability-time-step"];
+const LONG: &[&str] = &["stability-long-run"];
 
 /// All of them.
 pub fn all() -> Vec<Fault> {
     let fault = |name, subject| Fault { name, studies: STEPS, subject };
+    let long = |name, subject| Fault { name, studies: LONG, subject };
     vec![
         fault("marched with steps a fiftieth too long", Box::new(OtherStep(1.02)) as Box<dyn Subject + Send>),
         fault("marched with steps a fiftieth too short", Box::new(OtherStep(0.98))),
@@ -24,6 +28,9 @@ pub fn all() -> Vec<Fault> {
         fault("another mode is said to be the fastest", Box::new(OtherMode(upside_down))),
         fault("surface corrections are forgotten", Box::new(Uncorrected)),
         fault("what diverges is noticed far too late", Box::new(Late)),
+        long("damping that nobody asked for", Box::new(Acted(damped, damped))),
+        long("a body force that nobody asked for", Box::new(Acted(heavy, heavy))),
+        long("marched with steps two fifths too long", Box::new(OtherStep(1.4))),
     ]
 }
 
@@ -105,6 +112,35 @@ impl Subject for Uncorrected {
     fn fastest_plate(&self, scene: &Scene<2>) -> Result<Fastest<2>, String> {
         PdVerify.fastest_plate(&Scene { surface: Correction::None, ..scene.clone() })
     }
+}
+
+/// Something acts that nobody asked for.
+struct Acted(fn(&mut Scene<1>), fn(&mut Scene<2>));
+
+impl Subject for Acted {
+    fn march_bar(&self, scene: &Scene<1>) -> Result<Record, Failure> {
+        let mut other = scene.clone();
+        (self.0)(&mut other);
+        PdVerify.march_bar(&other)
+    }
+
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        let mut other = scene.clone();
+        (self.1)(&mut other);
+        PdVerify.march_plate(&other)
+    }
+}
+
+/// So weakly that a hundred thousand steps of 0.2 µs lose two parts in a million.
+fn damped<const D: usize>(scene: &mut Scene<D>) {
+    scene.effects.push(Arc::new(Damping { rate_per_s: Positive(1e-4) }));
+}
+
+/// A ten-millionth of gravity.
+fn heavy<const D: usize>(scene: &mut Scene<D>) {
+    let gravity =
+        BodyForce { axis: Axis::X, density_n_m3: 2.4e-3, region: None, history: HistoryAsked::step() };
+    scene.effects.push(Arc::new(gravity));
 }
 
 /// A march is given up only after three times as many steps.
