@@ -28,6 +28,7 @@ pub const SHIPPED: &[(&str, &str)] = &[
     ("studies/dsif/running.toml", include_str!("dsif/running.toml")),
     ("studies/stability/time_step.toml", include_str!("stability/time_step.toml")),
     ("studies/stability/long_run.toml", include_str!("stability/long_run.toml")),
+    ("studies/stability/rotation.toml", include_str!("stability/rotation.toml")),
 ];
 
 /// All shipped studies of a kind (or all), with `--set` changes; a setting that no study has a place for is refused.

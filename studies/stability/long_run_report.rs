@@ -45,7 +45,7 @@ pub fn figure(asked: &LongRun, all: &[Kept], place: &Place) -> Figure {
     }
     let panel = Lines::new(Axis::log("step"), Axis::log("drift of the invariant / its value"), series);
     let caption = format!(
-        "Drift of leapfrog's invariant for {} of {} bodies, and what a random walk of rounding errors allows (dashed).",
+        "Drift of leapfrog's invariant for {} of {} bodies, and what a random walk of rounding errors allows (the smooth lines above).",
         all.len().min(DRAWN),
         all.len()
     );

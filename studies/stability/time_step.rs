@@ -61,6 +61,13 @@ pub struct Seen {
     pub given_up: Option<u64>,
 }
 
+impl Seen {
+    /// Whether the next mode is slow enough that what grew has the shape of the fastest.
+    pub fn stands_alone(&self) -> bool {
+        self.measured.most.is_some_and(|most| most <= SAYS_NOTHING)
+    }
+}
+
 /// Shares of the limits at which is marched.
 const BELOW: f64 = 0.99;
 const ABOVE: f64 = 1.01;
@@ -163,7 +170,7 @@ body's own limit: 2/ω_max of K/ρ; with positive weights at least the lattice's
 
 impl TimeStepLimit {
     /// Whether bonds near edges may be stiffer than the lattice's, so that its limit says nothing.
-    fn corrected(&self) -> bool {
+    pub fn corrected(&self) -> bool {
         self.surface != Correction::None
     }
 
@@ -269,8 +276,7 @@ impl TimeStepLimit {
 
     /// Of the bodies whose fastest mode stands alone.
     fn shape(&self, all: &[Seen]) -> Evidence {
-        let said = |seen: &Seen| seen.measured.most.is_some_and(|most| most <= SAYS_NOTHING);
-        let alone = || all.iter().filter(|seen| said(seen));
+        let alone = || all.iter().filter(|seen| seen.stands_alone());
         let beyond = |seen: &Seen| {
             let beyond = seen.measured.sine? - seen.measured.most?;
             Some(if beyond < 0.0 { 0.0 } else { beyond })

@@ -61,11 +61,12 @@ fn known(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }
 
-/// Norms over steps, and of a plate the mode that grows.
+/// Norms over steps, and of the first plate whose fastest mode stands alone the mode that grows.
 pub fn figures(asked: &TimeStepLimit, all: &[Seen], place: &Place) -> Vec<Figure> {
     let mut figures = vec![norms(asked, all, place)];
-    if let Some((FreeBody::Plate(_), seen)) = asked.bodies.first().zip(all.first()) {
-        figures.extend(mode(asked, seen, place));
+    let plate = |at: &usize| matches!(asked.bodies[*at], FreeBody::Plate(_)) && all[*at].stands_alone();
+    if let Some(at) = (0..all.len()).find(plate) {
+        figures.extend(mode(asked, all, at, place));
     }
     figures
 }
@@ -91,20 +92,22 @@ fn norms(asked: &TimeStepLimit, all: &[Seen], place: &Place) -> Figure {
     )
     .titled("Below the limit")
     .guide(Guide::Horizontal { at: 1.0, label: "the start".into() });
+    // At equal shares of their own limits all bodies grow alike: one is shown.
+    let shown = if asked.corrected() { DRAWN } else { 1 };
     let mut above: Vec<Series> = Vec::new();
-    for (slot, (seen, name)) in drawn() {
+    for (slot, (seen, name)) in drawn().take(shown) {
         above.push(Series::markers(name.clone(), growth(&seen.grown)).slot(slot));
         let share = seen.growing.share();
         let predicted =
             |step: u64| libm::log10(share) + seen.growing.logarithm(step) / std::f64::consts::LN_10;
         let points = seen.grown.iter().map(|look| (look.step as f64, predicted(look.step)));
-        above.push(Series::reference(format!("{name}, predicted"), points.collect()).slot(slot));
+        above.push(Series::line(format!("{name}, fastest mode alone"), points.collect()).slot(slot));
     }
     let above =
         Lines::new(Axis::linear("step"), Axis::linear("log₁₀ ‖u‖ / ‖u(0)‖"), above).titled("Above the limit");
     let caption = format!(
         "Norm of the displacements over that of the start, for {} of {} bodies: below the limit it never exceeds the start's, \
-         above the limit the fastest mode grows by e^φ a step, cosh(φ/2) = ωΔt/2 (dashed: that mode alone).",
+         above the limit the fastest mode grows by e^φ a step, cosh(φ/2) = ωΔt/2 (lines: that mode alone, as predicted).",
         all.len().min(DRAWN),
         all.len()
     );
@@ -112,8 +115,9 @@ fn norms(asked: &TimeStepLimit, all: &[Seen], place: &Place) -> Figure {
 }
 
 /// The larger component of a plate's displacement when it has grown, and the mode predicted.
-fn mode(asked: &TimeStepLimit, seen: &Seen, place: &Place) -> Option<Figure> {
-    let (body, last) = (&asked.bodies[0], &seen.grown.last()?.displacement);
+fn mode(asked: &TimeStepLimit, all: &[Seen], at: usize, place: &Place) -> Option<Figure> {
+    let seen = &all[at];
+    let (body, last) = (&asked.bodies[at], &seen.grown.last()?.displacement);
     let (columns, components) = body.columns();
     let part = |field: &[f64], component: usize| -> Vec<f64> {
         field.iter().skip(component).step_by(components).copied().collect()
@@ -130,10 +134,10 @@ fn mode(asked: &TimeStepLimit, seen: &Seen, place: &Place) -> Option<Figure> {
             .to_scale()
     };
     // The mode's sign is free: that of the body where the mode is largest.
-    let at =
+    let peak =
         (0..last.len()).max_by(|&a, &b| seen.mode.shape[a].abs().total_cmp(&seen.mode.shape[b].abs()))?;
-    let turned = (last[at] * seen.mode.shape[at].signum()).signum();
-    let title = format!("The mode that grows: {}", asked.names[0]);
+    let turned = (last[peak] * seen.mode.shape[peak].signum()).signum();
+    let title = format!("The mode that grows: {}", asked.names[at]);
     let caption = format!(
         "Displacement along {} of every node after a growth by e^500, and the mode of the largest frequency.",
         ["x", "y"][larger]

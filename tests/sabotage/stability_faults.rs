@@ -9,16 +9,18 @@ use pd_verify::forces::surface::Correction;
 use pd_verify::forces::{BodyForce, Damping};
 use pd_verify::lattice::Stencil;
 use pd_verify::record::{Failure, Record};
-use pd_verify::scene::{Axis, HistoryAsked, Positive, Scene, StepRule};
+use pd_verify::scene::{Axis, HistoryAsked, Positive, Rotations, Scene, StepRule};
 use std::sync::Arc;
 
 const STEPS: &[&str] = &["stability-time-step"];
 const LONG: &[&str] = &["stability-long-run"];
+const TURNS: &[&str] = &["stability-rotation"];
 
 /// All of them.
 pub fn all() -> Vec<Fault> {
     let fault = |name, subject| Fault { name, studies: STEPS, subject };
     let long = |name, subject| Fault { name, studies: LONG, subject };
+    let turns = |name, subject| Fault { name, studies: TURNS, subject };
     vec![
         fault("marched with steps a fiftieth too long", Box::new(OtherStep(1.02)) as Box<dyn Subject + Send>),
         fault("marched with steps a fiftieth too short", Box::new(OtherStep(0.98))),
@@ -31,6 +33,9 @@ pub fn all() -> Vec<Fault> {
         long("damping that nobody asked for", Box::new(Acted(damped, damped))),
         long("a body force that nobody asked for", Box::new(Acted(heavy, heavy))),
         long("marched with steps two fifths too long", Box::new(OtherStep(1.4))),
+        turns("all rotations are small", Box::new(Law(Rotations::Small))),
+        turns("all rotations are finite", Box::new(Law(Rotations::Finite))),
+        turns("fast spins are a tenth faster", Box::new(Spun)),
     ]
 }
 
@@ -141,6 +146,30 @@ fn heavy<const D: usize>(scene: &mut Scene<D>) {
     let gravity =
         BodyForce { axis: Axis::X, density_n_m3: 2.4e-3, region: None, history: HistoryAsked::step() };
     scene.effects.push(Arc::new(gravity));
+}
+
+/// Another law than the one asked for.
+struct Law(Rotations);
+
+impl Subject for Law {
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        PdVerify.march_plate(&Scene { rotations: self.0, ..scene.clone() })
+    }
+
+    fn bond_force_plate(&self, scene: &Scene<2>) -> Result<Vec<[f64; 2]>, String> {
+        PdVerify.bond_force_plate(&Scene { rotations: self.0, ..scene.clone() })
+    }
+}
+
+struct Spun;
+
+impl Subject for Spun {
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        let mut other = scene.clone();
+        let fast = other.velocity.iter().any(|velocity| velocity.amplitude > 5000.0);
+        other.velocity.iter_mut().filter(|_| fast).for_each(|velocity| velocity.amplitude *= 1.1);
+        PdVerify.march_plate(&other)
+    }
 }
 
 /// A march is given up only after three times as many steps.
