@@ -15,12 +15,14 @@ use std::sync::Arc;
 const STEPS: &[&str] = &["stability-time-step"];
 const LONG: &[&str] = &["stability-long-run"];
 const TURNS: &[&str] = &["stability-rotation"];
+const UNITS: &[&str] = &["stability-scaling"];
 
 /// All of them.
 pub fn all() -> Vec<Fault> {
     let fault = |name, subject| Fault { name, studies: STEPS, subject };
     let long = |name, subject| Fault { name, studies: LONG, subject };
     let turns = |name, subject| Fault { name, studies: TURNS, subject };
+    let units = |name, subject| Fault { name, studies: UNITS, subject };
     vec![
         fault("marched with steps a fiftieth too long", Box::new(OtherStep(1.02)) as Box<dyn Subject + Send>),
         fault("marched with steps a fiftieth too short", Box::new(OtherStep(0.98))),
@@ -36,6 +38,11 @@ pub fn all() -> Vec<Fault> {
         turns("all rotations are small", Box::new(Law(Rotations::Small))),
         turns("all rotations are finite", Box::new(Law(Rotations::Finite))),
         turns("fast spins are a tenth faster", Box::new(Spun)),
+        turns("a spin is damped", Box::new(Acted(damped, damped))),
+        units(
+            "bonds of small bodies are a billionth softer",
+            Box::new(Acted(soft_when_small, soft_when_small)),
+        ),
     ]
 }
 
@@ -169,6 +176,12 @@ impl Subject for Spun {
         let fast = other.velocity.iter().any(|velocity| velocity.amplitude > 5000.0);
         other.velocity.iter_mut().filter(|_| fast).for_each(|velocity| velocity.amplitude *= 1.1);
         PdVerify.march_plate(&other)
+    }
+}
+
+fn soft_when_small<const D: usize>(scene: &mut Scene<D>) {
+    if scene.spacing < 1e-8 {
+        scene.material.youngs_modulus *= 1.0 - 1e-9;
     }
 }
 
