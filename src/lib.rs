@@ -82,6 +82,7 @@ pub mod connectivity;
 pub mod constraints;
 pub mod dispersion;
 pub mod family;
+pub mod fastest;
 pub mod field;
 pub mod forces;
 pub mod grid;

@@ -1,7 +1,19 @@
 //! The publications that claims cite, as BibTeX. Only what is known for certain is filled in.
 
 /// What a citation contains, and its entry.
-const ENTRIES: [(&str, &str); 13] = [
+const ENTRIES: [(&str, &str); 14] = [
+    (
+        "Higham & Mary 2019",
+        "@article{highammary2019,
+  author  = {Higham, Nicholas J. and Mary, Theo},
+  title   = {A new approach to probabilistic rounding error analysis},
+  journal = {SIAM Journal on Scientific Computing},
+  volume  = {41},
+  pages   = {A2815--A2835},
+  year    = {2019}
+}
+",
+    ),
     (
         "Silling 2000",
         "@article{silling2000,

@@ -43,6 +43,13 @@ pub enum Command {
         #[command(flatten)]
         options: RunOptions,
     },
+    /// Cases that break codes, time steps at and beyond the limit among them: the shipped studies, or the files given
+    Stability {
+        /// Study files; none means the shipped studies
+        files: Vec<PathBuf>,
+        #[command(flatten)]
+        options: RunOptions,
+    },
     /// Run study files of any kind
     Run {
         /// Study files

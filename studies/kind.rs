@@ -3,7 +3,7 @@
 use crate::input::{Refusal, nearest};
 use crate::question::Question;
 use crate::written::{Word, Written};
-use crate::{bar, convergence, dispersion, dsif, scene};
+use crate::{bar, convergence, dispersion, dsif, scene, stability};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -19,12 +19,15 @@ pub enum Kind {
     Convergence,
     /// Dynamic stress intensity factors of cracks in plates.
     Dsif,
+    /// Cases that break codes: time steps at and beyond the limit.
+    Stability,
     /// A scene of one's own, marched in time.
     Scene,
 }
 
 impl Kind {
-    pub const ALL: [Self; 5] = [Self::Dispersion, Self::Bar, Self::Convergence, Self::Dsif, Self::Scene];
+    pub const ALL: [Self; 6] =
+        [Self::Dispersion, Self::Bar, Self::Convergence, Self::Dsif, Self::Stability, Self::Scene];
 
     /// The word in study files; also the command and the folder of the shipped studies.
     pub fn word(self) -> &'static str {
@@ -33,6 +36,7 @@ impl Kind {
             Self::Bar => "bar",
             Self::Convergence => "convergence",
             Self::Dsif => "dsif",
+            Self::Stability => "stability",
             Self::Scene => "scene",
         }
     }
@@ -44,6 +48,7 @@ impl Kind {
             Self::Bar => bar::WORDS,
             Self::Convergence => convergence::WORDS,
             Self::Dsif => dsif::WORDS,
+            Self::Stability => stability::WORDS,
             Self::Scene => scene::WORDS,
         }
     }
@@ -55,6 +60,7 @@ impl Kind {
             Self::Bar => bar::TABLES,
             Self::Convergence => convergence::TABLES,
             Self::Dsif => dsif::TABLES,
+            Self::Stability => stability::TABLES,
             Self::Scene => scene::TABLES,
         }
     }
@@ -66,6 +72,7 @@ impl Kind {
             Self::Bar => bar::SUFFIXES,
             Self::Convergence => convergence::SUFFIXES,
             Self::Dsif => dsif::SUFFIXES,
+            Self::Stability => stability::SUFFIXES,
             Self::Scene => &[],
         }
     }

@@ -25,6 +25,7 @@ mod run;
 mod scene;
 mod schema;
 mod shipped;
+mod stability;
 mod study;
 mod subject;
 mod written;
@@ -65,6 +66,9 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
         }
         Command::Dsif { files, options } => {
             judge::shipped_or_files(Kind::Dsif, &files, &options).map(judge::End::code)
+        }
+        Command::Stability { files, options } => {
+            judge::shipped_or_files(Kind::Stability, &files, &options).map(judge::End::code)
         }
         Command::Run { files, options } => judge::files(&files, &options).map(judge::End::code),
         Command::List { json } => print(&list::list(json)?),

@@ -26,6 +26,10 @@ pub const SHIPPED: &[(&str, &str)] = &[
     ("studies/dsif/plates.toml", include_str!("dsif/plates.toml")),
     ("studies/dsif/hybrid.toml", include_str!("dsif/hybrid.toml")),
     ("studies/dsif/running.toml", include_str!("dsif/running.toml")),
+    ("studies/stability/time_step.toml", include_str!("stability/time_step.toml")),
+    ("studies/stability/long_run.toml", include_str!("stability/long_run.toml")),
+    ("studies/stability/rotation.toml", include_str!("stability/rotation.toml")),
+    ("studies/stability/scaling.toml", include_str!("stability/scaling.toml")),
 ];
 
 /// All shipped studies of a kind (or all), with `--set` changes; a setting that no study has a place for is refused.
@@ -122,6 +126,9 @@ mod tests {
         // The same 15 s for plates with a crack.
         let cracks = effort(Kind::Dsif);
         assert!(cracks.node_updates > 0 && cracks.node_updates < 600_000_000, "{cracks:?}");
+        // 20 s; small bodies are mostly edge, whose nodes go bond by bond: some 4·10⁸ bonds a second.
+        let marched = effort(Kind::Stability);
+        assert!(marched.node_updates > 0 && marched.bond_evaluations < 8_000_000_000, "{marched:?}");
     }
 
     #[test]

@@ -10,6 +10,7 @@ use pd_verify::dispersion::joint::{self, Chain};
 use pd_verify::dispersion::plane::PlaneDispersion;
 use pd_verify::dispersion::timestep::{self, TimeStep};
 use pd_verify::dispersion::{Branch, Wave, continuum, finite_differences, leapfrog};
+use pd_verify::fastest::{Fastest, fastest};
 use pd_verify::field::Window;
 use pd_verify::forces::{Class, Now};
 use pd_verify::kernel::Kernel;
@@ -124,6 +125,16 @@ pub trait Subject: Sync {
     /// Marches a plate and returns what its probes saw.
     fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
         record::run(scene)
+    }
+
+    /// The fastest mode of a bar that its displacement at t = 0 contains.
+    fn fastest_bar(&self, scene: &Scene<1>) -> Result<Fastest<1>, String> {
+        fastest(scene).map_err(|none| none.to_string())
+    }
+
+    /// The fastest mode of a plate that its displacement at t = 0 contains.
+    fn fastest_plate(&self, scene: &Scene<2>) -> Result<Fastest<2>, String> {
+        fastest(scene).map_err(|none| none.to_string())
     }
 
     /// Displacements in m of a bar's nodes at rest under the loads of t = 0.

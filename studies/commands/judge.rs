@@ -88,8 +88,10 @@ fn read_files(files: &[PathBuf], kind: Option<Kind>, settings: &[Setting]) -> Re
     let mut groups: Vec<Group> = Vec::new();
     let mut used = vec![false; settings.len()];
     for file in files {
-        let cure =
-            format!("give the path of a study file, or run all shipped ones of a kind with {}", commands());
+        let cure = format!(
+            "give the path of a study file, or run all the shipped studies of a kind with {}",
+            commands()
+        );
         let text = read_text(file, &cure)?;
         let (study, found) = Study::read(&file.display().to_string(), &text, settings)?;
         used.iter_mut().zip(found).for_each(|(used, found)| *used |= found);

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// Commands with shipped studies, and the folders of these.
-const KINDS: [&str; 4] = ["dispersion", "bar", "convergence", "dsif"];
+const KINDS: [&str; 5] = ["dispersion", "bar", "convergence", "dsif", "stability"];
 
 /// Name and text of every shipped study file.
 pub fn shipped() -> Vec<(String, String)> {
@@ -30,7 +30,9 @@ fn shipped_files_are_accepted_as_files() {
 
 #[test]
 fn the_quick_profile_passes_and_threads_change_no_bit() {
-    for (kind, claims, files) in [("dispersion", 100, 60), ("bar", 20, 10), ("convergence", 80, 20)] {
+    for (kind, claims, files) in
+        [("dispersion", 100, 60), ("bar", 20, 10), ("convergence", 80, 20), ("stability", 20, 10)]
+    {
         quick_profile(kind, claims, files);
     }
 }

@@ -6,6 +6,7 @@ mod convergence_faults;
 mod dsif_faults;
 mod faults;
 mod oracles;
+mod stability_faults;
 
 use crate::kind::Kind;
 use crate::progress::Silent;
@@ -55,10 +56,20 @@ fn every_fault_in_refinements_is_caught_and_every_claim_about_them_can_fail() {
 /// Each fault is looked for in the studies that have its ingredient: all of them with all faults would take too long.
 #[test]
 fn every_fault_in_cracked_plates_is_caught_and_every_claim_about_them_can_fail() {
-    let studies = shipped(Some(Kind::Dsif), &[]).expect("the shipped studies are sound");
+    check_where_it_is(Kind::Dsif, &dsif_faults::all());
+}
+
+#[test]
+fn every_fault_in_stability_is_caught_and_every_claim_about_it_can_fail() {
+    check_where_it_is(Kind::Stability, &stability_faults::all());
+}
+
+/// Runs the quick studies of a kind, each with the faults that have an ingredient there.
+fn check_where_it_is(kind: Kind, faults: &[dsif_faults::Fault]) {
+    let studies = shipped(Some(kind), &[]).expect("the shipped studies are sound");
     let sound = verdicts(&studies, Profile::Quick, &PdVerify);
     must_be_sound(&sound);
-    let lost: Vec<(&str, BTreeSet<String>)> = dsif_faults::all()
+    let lost: Vec<(&str, BTreeSet<String>)> = faults
         .par_iter()
         .map(|fault| {
             let mine: Vec<&Study> =
@@ -73,7 +84,7 @@ fn every_fault_in_cracked_plates_is_caught_and_every_claim_about_them_can_fail()
 /// The quick profile stands for the others where these would take too long.
 #[test]
 fn slow_cases_ask_nothing_that_the_quick_profile_does_not() {
-    for kind in [Kind::Convergence, Kind::Dsif] {
+    for kind in [Kind::Convergence, Kind::Dsif, Kind::Stability] {
         let studies = shipped(Some(kind), &[]).expect("the shipped studies are sound");
         let asked = |quick: bool| -> BTreeSet<String> {
             let cases = studies.iter().flat_map(|study| &study.cases);

@@ -1,0 +1,27 @@
+//! `pd-verify stability`: cases that break codes: time steps at and beyond the limit of a body, very many steps, rotations, other units.
+
+pub mod body;
+mod growing;
+pub mod long_run;
+mod long_run_report;
+pub mod rotation;
+pub mod scaling;
+pub mod time_step;
+mod time_step_report;
+
+use crate::written::Word;
+
+/// What a case may ask.
+pub const WORDS: &[Word] = &[
+    Word::of::<time_step::TimeStepAsked>("time_step"),
+    Word::of::<long_run::LongRunAsked>("long_run"),
+    Word::of::<rotation::RotationAsked>("rotation"),
+    Word::of::<scaling::ScalingAsked>("scaling"),
+];
+
+/// Files that cases share; no figure may take their names.
+pub const TABLES: &[&str] =
+    &["stability_long_run", "stability_rotation", "stability_scaling", "stability_time_steps", "verdicts"];
+
+/// Ends of the names of figures beside the one that is called like its case.
+pub const SUFFIXES: &[&str] = &["-mode"];
