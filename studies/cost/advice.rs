@@ -30,6 +30,9 @@ pub const KERNELS: [Kernel; 9] = [
 pub const MS: [f64; 18] =
     [1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 6.5, 7.0, 7.5, 8.0, 8.5, 9.0, 9.5, 10.0];
 
+/// How much finer than the error allows a setting is, so that rounding does not take it beyond.
+const MARGIN: f64 = 1e-12;
+
 /// What is asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Asked {
@@ -161,8 +164,7 @@ impl Candidate {
         let spacing = match asked.bound {
             Bound::LeastM(least) if lattice.m < least => return None,
             Bound::Horizon(horizon) => horizon / lattice.m,
-            // A little less, or rounding takes it beyond.
-            _ => (1.0 - 4.0 * f64::EPSILON) * reach / wavenumber,
+            _ => (1.0 - MARGIN) * reach / wavenumber,
         };
         if spacing * wavenumber > reach {
             return None;
@@ -240,9 +242,9 @@ mod tests {
         // Δx = 1 mm and c_d Δt = C mm: 10⁶ nodes for each m², each 5·10⁶/C times a second.
         let asked = Asked { wavelength: TAU * 1e-3 / candidate.reach, ..ASKED };
         let setting = candidate.setting(&asked).unwrap();
-        assert_relative_eq!(setting.spacing, 1e-3, max_relative = 1e-14);
-        assert_relative_eq!(setting.node_updates, 5e12 / candidate.courant, max_relative = 1e-12);
-        assert_relative_eq!(setting.bond_updates, 9e13 / candidate.courant, max_relative = 1e-12);
+        assert_relative_eq!(setting.spacing, 1e-3, max_relative = 2.0 * MARGIN);
+        assert_relative_eq!(setting.node_updates, 5e12 / candidate.courant, max_relative = 4.0 * MARGIN);
+        assert_relative_eq!(setting.bond_updates, 9e13 / candidate.courant, max_relative = 4.0 * MARGIN);
     }
 
     /// Calibrated, eight neighbours have two weights for two moduli: the kernel does not matter.
