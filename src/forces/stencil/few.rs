@@ -99,7 +99,7 @@ impl Weights {
     }
 }
 
-/// The bonds of nodes that have them all, in some rows; `TOPS` as in [`Quadrant::profile`].
+/// The bonds of nodes that have them all, in some rows; `TOPS` is one of [`profiles`].
 pub struct Few<'a, S, const TOPS: u32> {
     pub quadrant: &'a Quadrant,
     pub runs: &'a [Masked],

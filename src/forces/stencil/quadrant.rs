@@ -5,8 +5,9 @@
 //! and one along x in the node's row, both differences, so that digits are lost nowhere. With S_j = (u(j) − u) + (u(−j) − u)
 //! and D_j = u(j) − u(−j) in a column, the columns i and −i give P_i = A_i + B_i and M_i = A_i − B_i, A_i = Σ_j w_xx S_j^x,
 //! B_i = Σ_j w_xy D_j^y for f_x, and f_x = Σ_i P_i(x+i) + M_i(x−i) + W_i ((u(x+i) − u) + (u(x−i) − u)), W_i the sum of w_xx over
-//! the column; f_y likewise with w_yy and the components of S and D exchanged. A bond takes one multiplication where it
-//! took four, and columns are shared by all nodes of a row.
+//! the column; f_y likewise with w_yy and the components of S and D exchanged. With E_i(x) = u(x+i) − u(x) the last term is
+//! W_i (E_i(x) − E_i(x−i)): it is added to the node's own and taken from the M_i that goes to the node behind. A bond takes one
+//! multiplication where it took four, and columns are shared by all nodes of a row.
 
 use crate::forces::FamilyBond;
 
