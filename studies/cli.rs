@@ -94,7 +94,7 @@ pub enum Command {
     },
     /// How fast bodies are marched, beside what the machine can do: the whole suite, or one plate
     Bench(BenchOptions),
-    /// What accuracy costs: the cheapest settings whose waves are as accurate as asked
+    /// What accuracy costs: the shipped studies, or the files given; with --advise the cheapest settings for an error
     Cost(CostOptions),
     /// The JSON schema of study files
     Schema,
@@ -169,33 +169,37 @@ pub struct BenchOptions {
 /// Options of `cost`.
 #[derive(Debug, Clone, Args)]
 pub struct CostOptions {
-    /// Search kernels, m, volume rules and calibrations of plates
-    #[arg(long, required = true)]
+    /// Study files; none means the shipped studies
+    pub files: Vec<PathBuf>,
+    /// Search kernels, m, volume rules and calibrations of plates; the answer goes to advice/
+    #[arg(long, requires_all = ["error", "wavelength"], conflicts_with_all = ["files", "profile", "set"])]
     pub advise: bool,
     /// Largest phase error, worst over directions and both branches: 0.01 is one per cent
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
-    pub error: f64,
+    #[arg(long, value_name = "E", requires = "advise", allow_negative_numbers = true)]
+    pub error: Option<f64>,
     /// Length of the shortest waves that matter, in m
-    #[arg(long, value_name = "L", allow_negative_numbers = true)]
-    pub wavelength: f64,
+    #[arg(long, value_name = "L", requires = "advise", allow_negative_numbers = true)]
+    pub wavelength: Option<f64>,
     /// Settings of at least this m only
-    #[arg(long, value_name = "M", conflicts_with = "horizon", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "M",
+        requires = "advise",
+        conflicts_with = "horizon",
+        allow_negative_numbers = true
+    )]
     pub min_m: Option<f64>,
     /// Settings of this horizon only, in m
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", requires = "advise", allow_negative_numbers = true)]
     pub horizon: Option<f64>,
     /// Dilatational speed of the plate in m/s; that of steel in plane stress if not given
-    #[arg(long, value_name = "C", default_value_t = 5354.0, allow_negative_numbers = true)]
-    pub speed: f64,
-    /// Threads to use; results do not depend on it
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
-    /// Machine-readable
-    #[arg(long)]
+    #[arg(long, value_name = "C", requires = "advise", allow_negative_numbers = true)]
+    pub speed: Option<f64>,
+    /// Machine-readable advice
+    #[arg(long, requires = "advise")]
     pub json: bool,
-    /// Folder of the results, which go to advice/
-    #[arg(long, value_name = "DIR", default_value = "reports")]
-    pub out: PathBuf,
+    #[command(flatten)]
+    pub run: RunOptions,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -230,6 +234,11 @@ impl Isa {
             Self::Avx2 => InstructionSet::Avx2,
             Self::Avx512 => InstructionSet::Avx512,
         }
+    }
+
+    /// The best that this processor has.
+    pub fn best() -> Self {
+        [Self::Avx512, Self::Avx2].into_iter().find(|isa| isa.is_here()).unwrap_or(Self::Baseline)
     }
 
     /// Whether this processor has it.
