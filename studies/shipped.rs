@@ -30,6 +30,7 @@ pub const SHIPPED: &[(&str, &str)] = &[
     ("studies/stability/long_run.toml", include_str!("stability/long_run.toml")),
     ("studies/stability/rotation.toml", include_str!("stability/rotation.toml")),
     ("studies/stability/scaling.toml", include_str!("stability/scaling.toml")),
+    ("studies/stability/arithmetic.toml", include_str!("stability/arithmetic.toml")),
 ];
 
 /// All shipped studies of a kind (or all), with `--set` changes; a setting that no study has a place for is refused.

@@ -173,6 +173,11 @@ pub trait Subject: Sync {
         bar.fourier_displacement(x, t, terms)
     }
 
+    /// The same of its strain.
+    fn released_strain(&self, bar: &ReleasedBar, x: f64, t: f64, terms: usize) -> f64 {
+        bar.fourier_strain(x, t, terms)
+    }
+
     /// What a joint sends back of the left chain's wave.
     fn reflection(&self, left: &Chain, right: &Chain, theta: f64) -> Option<Complex<f64>> {
         joint::exact(left, right, theta)
