@@ -57,6 +57,9 @@ pub enum Unusable {
     /// m < 1 or NaN.
     #[error("m = {m} is below 1: the horizon does not reach the nearest node")]
     HorizonBelowSpacing { m: f64 },
+    /// A family of more bonds than any body is given.
+    #[error("m = {m} makes {pairs:.1e} pairs of bonds, at most {MOST_PAIRS:.0e} are made")]
+    TooLarge { m: f64, pairs: f64 },
     /// C₆₆ = 0.
     #[error("{lattice} has no shear stiffness: all its bonds lie along the axes, so C66 = 0")]
     NoShear { lattice: Lattice },
@@ -72,6 +75,7 @@ impl Unusable {
     pub fn cure(&self) -> &'static str {
         match self {
             Self::HorizonBelowSpacing { .. } => "take m >= 1, or a smaller spacing for the same horizon",
+            Self::TooLarge { .. } => "take a smaller m, or a larger spacing for the same horizon",
             Self::NoShear { .. } => {
                 "take m >= 1.5, or volume_rule \"linear\" or \"exact_area\", which reach the diagonal neighbours"
             }
@@ -81,6 +85,9 @@ impl Unusable {
         }
     }
 }
+
+/// A larger family is a slip of the pen: it takes a tenth of a second to make, and one step of it an hour.
+const MOST_PAIRS: f64 = 1e6;
 
 /// One pair of bonds ±ξ.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -144,6 +151,10 @@ fn printed_weights<const D: usize>(lattice: Lattice) -> Result<Vec<Bond<D>>, Unu
     let Lattice { kernel, m, volume_rule, .. } = lattice;
     if m.is_nan() || m < 1.0 {
         return Err(Unusable::HorizonBelowSpacing { m });
+    }
+    let pairs = if D == 1 { m } else { 0.5 * PI * m * m };
+    if pairs > MOST_PAIRS {
+        return Err(Unusable::TooLarge { m, pairs });
     }
     let constant = match D {
         1 => 1.0 / (m * m * kernel.moment(1)),

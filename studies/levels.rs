@@ -177,8 +177,15 @@ pub fn pairwise(levels: &[(f64, f64)], index: usize) -> Option<f64> {
     order::pairwise(levels[index.checked_sub(1)?], levels[index])
 }
 
+/// More levels say nothing more of an order.
+const MOST_LEVELS: usize = 100;
+
 /// Steps of a refinement, each finer than the one before; fewer than three make no order.
 pub fn refining(key: &str, steps: &[Positive], finer: impl Fn(f64, f64) -> bool) -> Result<Vec<f64>, Wrong> {
+    if steps.len() > MOST_LEVELS {
+        let message = format!("{} levels are more than the {MOST_LEVELS} that are run", steps.len());
+        return Err(Wrong::new(key, message, "an order is seen from a few, each half of the one before"));
+    }
     let steps: Vec<f64> = steps.iter().map(|step| step.0).collect();
     if steps.len() < 3 || !steps.windows(2).all(|pair| finer(pair[0], pair[1])) {
         let message = "an order needs three levels or more, each finer than the one before";

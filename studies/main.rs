@@ -3,6 +3,8 @@
 //! A study file is read and checked whole before anything is computed; its cases ask their questions of the library
 //! and of the reference, evidence is held against claims, and tables, figures and verdicts go to `reports/`.
 
+mod afford;
+mod allocator;
 mod attachment;
 mod bar;
 mod bench;
@@ -16,6 +18,7 @@ mod dsif;
 mod input;
 mod kind;
 mod levels;
+mod machine;
 mod manifest;
 mod output;
 mod progress;
@@ -30,6 +33,9 @@ mod study;
 mod subject;
 mod written;
 
+#[cfg(test)]
+#[path = "../tests/hostile/mod.rs"]
+mod hostile;
 #[cfg(test)]
 #[path = "../tests/sabotage/mod.rs"]
 mod sabotage;

@@ -57,7 +57,28 @@ impl Output {
         fs::create_dir_all(root).map_err(|error| refuse(&error))?;
         let probe = root.join(format!(".probe-{}", std::process::id()));
         fs::write(&probe, b"").and_then(|()| fs::remove_file(&probe)).map_err(|error| refuse(&error))?;
-        Ok(Self { root: root.to_owned() })
+        let output = Self { root: root.to_owned() };
+        folders.iter().for_each(|folder| output.tidy(folder));
+        ROOT_FILES.iter().for_each(|(file, _)| output.tidy(file));
+        Ok(output)
+    }
+
+    /// Clears away what runs that were killed left half-written under this name, and puts back what one had just moved aside.
+    fn tidy(&self, name: &str) {
+        let Ok(entries) = fs::read_dir(&self.root) else { return };
+        for entry in entries.flatten() {
+            let file = entry.file_name().to_string_lossy().into_owned();
+            let left = |kind: &str| file.strip_prefix(&format!(".{name}.{kind}-"))?.parse::<u32>().ok();
+            let (old, partial) = (left("old"), left("partial"));
+            if !old.or(partial).is_some_and(has_ended) {
+                continue;
+            }
+            let place = self.root.join(name);
+            let kept = old.is_some() && !place.exists() && fs::rename(entry.path(), place).is_ok();
+            if !kept && fs::remove_dir_all(entry.path()).is_err() {
+                let _ = fs::remove_file(entry.path());
+            }
+        }
     }
 
     /// Replaces a folder of results, all files at once.
@@ -73,8 +94,11 @@ impl Output {
             let _ = fs::remove_dir_all(&partial);
             return Err(error);
         }
-        if place.exists() {
-            fs::rename(&place, &old)?;
+        if place.exists()
+            && let Err(error) = fs::rename(&place, &old)
+        {
+            let _ = fs::remove_dir_all(&partial);
+            return Err(error);
         }
         if let Err(error) = fs::rename(&partial, &place) {
             let _ = fs::rename(&old, &place);
@@ -95,6 +119,11 @@ impl Output {
         }
         written.map(|()| place)
     }
+}
+
+/// Whether no process of this number runs; where that cannot be told, none has ended.
+fn has_ended(process: u32) -> bool {
+    Path::new("/proc/self").exists() && !Path::new("/proc").join(process.to_string()).exists()
 }
 
 /// Whether a folder holds the manifest of a run; other programs have files of that name too.
@@ -127,5 +156,32 @@ mod tests {
         fs::write(root.path().join("b/thesis.tex"), "x").unwrap();
         assert!(Output::open(root.path(), &["b".into()]).is_err());
         assert!(root.path().join("b/thesis.tex").exists());
+    }
+
+    /// No process has a number as large as 2²²; this one is running.
+    #[test]
+    fn what_killed_runs_left_is_cleared_away_or_put_back() {
+        let root = tempfile::tempdir().unwrap();
+        let at = |name: &str| root.path().join(name);
+        let own = format!(".a.partial-{}", std::process::id());
+        for folder in [".a.partial-4194999", ".a.old-4194999", ".other.partial-4194999", &own] {
+            fs::create_dir(at(folder)).unwrap();
+            fs::write(at(folder).join(MARK), folder).unwrap();
+        }
+        fs::write(at(".index.html.partial-4194999"), "<!").unwrap();
+        Output::open(root.path(), &["a".into()]).unwrap();
+        assert_eq!(fs::read_to_string(at("a").join(MARK)).unwrap(), ".a.old-4194999");
+        let mut left: Vec<String> = fs::read_dir(root.path())
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        left.sort();
+        let mut kept = [".other.partial-4194999".to_owned(), own, "a".to_owned()];
+        kept.sort();
+        assert_eq!(left, kept);
+        // What is in place is newer than what was moved aside.
+        fs::create_dir(at(".a.old-4194999")).unwrap();
+        Output::open(root.path(), &[]).unwrap();
+        assert!(at(".a.old-4194999").exists());
     }
 }

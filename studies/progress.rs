@@ -1,25 +1,26 @@
-//! Progress on the terminal: a bar where somebody watches, silence in pipes, and the end at Ctrl-C.
+//! Progress on the terminal: a bar where somebody watches, silence in pipes, and the end at Ctrl-C or when asked to end.
 
 use crate::run::Watch;
 use crate::study::Case;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag::{register, register_conditional_shutdown};
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock};
 
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+static INTERRUPTED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 
-/// Lets Ctrl-C end the run after the case at hand; a second one ends it at once.
+/// Lets Ctrl-C, and the signal by which schedulers end a job, end the run after the case at hand; a second one ends it at once.
 pub fn listen() {
-    let handler = || {
-        if INTERRUPTED.swap(true, Ordering::SeqCst) {
-            std::process::exit(130);
-        }
-    };
-    // A second handler is refused by the system; the default then ends the program, which is no worse.
-    let _ = ctrlc::set_handler(handler);
+    for signal in [SIGINT, SIGTERM] {
+        // What is refused by the system leaves the default, which ends the program at once.
+        let _ = register_conditional_shutdown(signal, 130, INTERRUPTED.clone());
+        let _ = register(signal, INTERRUPTED.clone());
+    }
 }
 
-/// Whether Ctrl-C was pressed.
+/// Whether the run is to end.
 pub fn interrupted() -> bool {
     INTERRUPTED.load(Ordering::SeqCst)
 }

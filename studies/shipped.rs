@@ -30,6 +30,7 @@ pub const SHIPPED: &[(&str, &str)] = &[
     ("studies/stability/long_run.toml", include_str!("stability/long_run.toml")),
     ("studies/stability/rotation.toml", include_str!("stability/rotation.toml")),
     ("studies/stability/scaling.toml", include_str!("stability/scaling.toml")),
+    ("studies/stability/arithmetic.toml", include_str!("stability/arithmetic.toml")),
     ("studies/cost/bar.toml", include_str!("cost/bar.toml")),
     ("studies/cost/plate.toml", include_str!("cost/plate.toml")),
     ("studies/cost/crack.toml", include_str!("cost/crack.toml")),

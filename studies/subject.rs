@@ -174,6 +174,11 @@ pub trait Subject: Sync {
         bar.fourier_displacement(x, t, terms)
     }
 
+    /// The same of its strain.
+    fn released_strain(&self, bar: &ReleasedBar, x: f64, t: f64, terms: usize) -> f64 {
+        bar.fourier_strain(x, t, terms)
+    }
+
     /// What nodes cost on this machine, where marches are to be timed.
     fn costs(&self) -> Option<&Costs> {
         None

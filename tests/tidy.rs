@@ -75,6 +75,7 @@ fn unsafe_code_stays_where_it_pays() {
         "src/forces/stencil/",
         "src/march/pass.rs",
         "src/march/shared.rs",
+        "studies/allocator.rs",
         "studies/bench/fma.rs",
         "studies/bench/triad.rs",
     ];

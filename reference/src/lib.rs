@@ -52,6 +52,7 @@ pub mod running_tip;
 pub mod scattering;
 pub mod standing_wave;
 pub mod static_bar;
+pub mod stretched_plate;
 
 mod absorbing;
 mod band_edge;

@@ -4,6 +4,7 @@
 //! about x = 0 and odd about x = L, travels half to the left and half to the right. The lattices of this bar are in
 //! [`LatticeModes`].
 
+use crate::double_double::{self as dd, Dd};
 pub use crate::lattice_modes::LatticeModes;
 use std::f64::consts::PI;
 
@@ -56,6 +57,18 @@ impl ReleasedBar {
             sign / wave * libm::cos(wave * x / self.length) * libm::cos(wave * self.speed * t / self.length)
         };
         self.strain * (0..terms).map(term).sum::<f64>()
+    }
+
+    /// [`Self::fourier_strain`] summed in double-double arithmetic, at exactly these x, t, L and v.
+    pub fn fourier_strain_in_full(&self, x: f64, t: f64, terms: usize) -> f64 {
+        let (place, way) =
+            (Dd::from(x) / Dd::from(self.length), Dd::from(self.speed) * t / Dd::from(self.length));
+        let term = |n: usize| {
+            let wave = dd::PI * (n as f64 + 0.5);
+            let sign = if n.is_multiple_of(2) { 2.0 } else { -2.0 };
+            Dd::from(sign) / wave * (wave * place).cos() * (wave * way).cos()
+        };
+        ((0..terms).map(term).sum::<Dd>() * self.strain).to_f64()
     }
 
     /// The first `terms` of the Fourier series of the displacement; the rest is below 2ε₀L/(π² `terms`).

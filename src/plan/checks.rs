@@ -2,6 +2,7 @@
 
 use super::counts::Counts;
 use crate::constraints::Edge;
+use crate::forces::surface::Correction;
 use crate::grid::Grid;
 use crate::lattice::{Stencil, Unusable};
 use crate::record::{Patch, corners, line};
@@ -9,6 +10,16 @@ use crate::scene::{Hole, Rotations, Scene, Watch, Wrong};
 
 /// A block larger than this is a slip of the pen.
 const MAX_NODES: usize = 1 << 28;
+
+/// What is cut, corrected or loaded is planned node by node: more would take seconds, and any march of it days.
+const MAX_CUT_NODES: usize = 1 << 26;
+
+/// Its pairs of bonds near what cuts it.
+const MAX_CUT_PAIRS: f64 = 1e9;
+
+/// Visits of nodes by which holes and effects are laid out; an effect keeps what it finds, and counts as several.
+const MAX_PLANNED: f64 = (1 << 30) as f64;
+const EFFECT: usize = 8;
 
 /// What one run may hold of patches: more is a slip of the pen.
 const MAX_PATCH_BYTES: u64 = 4 << 30;
@@ -18,18 +29,16 @@ const NO_SHARE: f64 = 1e-9;
 
 /// The lattice of a body that can be.
 pub fn body<const D: usize>(scene: &Scene<D>) -> Result<Stencil<D>, Wrong> {
-    let unusable = |wrong: Unusable| Wrong::new("lattice.m", wrong.to_string(), wrong.cure());
-    let stencil = Stencil::<D>::new(scene.lattice).map_err(unusable)?;
+    nodes(scene)?;
     let horizon = scene.lattice.m * scene.spacing;
     let smallest = scene.size().into_iter().fold(f64::INFINITY, f64::min);
     if horizon > smallest * (1.0 + 1e-12) {
         let message = format!("the horizon of {horizon} m is larger than the body of {smallest} m");
         return Err(Wrong::new("lattice.m", message, "take a smaller m or spacing, or a larger body"));
     }
-    if scene.nodes.iter().try_fold(1_usize, |count, &n| count.checked_mul(n)).is_none_or(|n| n > MAX_NODES) {
-        let message = format!("{:?} nodes do not fit a block of {MAX_NODES}", scene.nodes);
-        return Err(Wrong::new("dx_m", message, "take a larger spacing or a smaller body"));
-    }
+    let unusable = |wrong: Unusable| Wrong::new("lattice.m", wrong.to_string(), wrong.cure());
+    let stencil = Stencil::<D>::new(scene.lattice).map_err(unusable)?;
+    bonds(scene, &stencil)?;
     for (axis, [below, above]) in scene.edges.0.into_iter().enumerate() {
         let key = ["edges.left", "edges.bottom"][axis];
         if (below == Edge::Periodic) != (above == Edge::Periodic) {
@@ -49,6 +58,53 @@ pub fn body<const D: usize>(scene: &Scene<D>) -> Result<Stencil<D>, Wrong> {
         }
     }
     Ok(stencil)
+}
+
+/// Refuses a body of more nodes than any is given, before anything is made of that size.
+fn nodes<const D: usize>(scene: &Scene<D>) -> Result<(), Wrong> {
+    let (holes, effects) = (scene.holes.len(), scene.effects.len());
+    let plain = scene.notches.is_empty() && holes + effects == 0 && scene.surface == Correction::None;
+    let (most, which) =
+        if plain { (MAX_NODES, "a block") } else { (MAX_CUT_NODES, "a block that is cut or loaded") };
+    let count = scene.nodes.iter().map(|&n| n as f64).product::<f64>();
+    if count > most as f64 {
+        let state = (3 * D * size_of::<f64>()) as f64 * count;
+        let message = format!(
+            "{:?} nodes do not fit {which} of {most}: their state alone takes {:.0} GB",
+            scene.nodes,
+            state / 1e9
+        );
+        return Err(Wrong::new("dx_m", message, "take a larger spacing or a smaller body"));
+    }
+    if count * (holes + EFFECT * effects) as f64 > MAX_PLANNED {
+        let message = format!("{holes} holes and {effects} effects are too many to lay out on {count} nodes");
+        return Err(Wrong::new("dx_m", message, "take fewer of them, or a larger spacing"));
+    }
+    Ok(())
+}
+
+/// Refuses a cut body of so many bonds near its cuts and edges that laying them out, one by one, would take minutes.
+fn bonds<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>) -> Result<(), Wrong> {
+    let corrected = scene.surface != Correction::None;
+    if scene.notches.is_empty() && scene.holes.is_empty() && !corrected {
+        return Ok(());
+    }
+    // Weights are corrected up to two families from an edge, by sums over the families of both ends.
+    let (reach, visits) = if corrected { (2 * stencil.reach(), 4.0) } else { (stencil.reach(), 1.0) };
+    let nodes = |kept: usize| scene.nodes.iter().map(|&n| n.saturating_sub(kept) as f64).product::<f64>();
+    let along = scene.nodes.iter().copied().max().unwrap_or(0) as f64;
+    let around = |hole: &Hole| (2.0 * (hole.radius / scene.spacing + reach as f64)).min(along).powi(2);
+    let near = nodes(0) - nodes(2 * reach)
+        + scene.notches.len() as f64 * along * (2 * reach) as f64
+        + scene.holes.iter().map(around).sum::<f64>();
+    let pairs = near.min(nodes(0)) * stencil.bonds.len() as f64 * visits;
+    if pairs <= MAX_CUT_PAIRS {
+        return Ok(());
+    }
+    let message = format!(
+        "{pairs:.1e} bonds near edges, notches and holes would be looked at one by one, at most {MAX_CUT_PAIRS:.0e} are"
+    );
+    Err(Wrong::new("lattice.m", message, "take a smaller m, or a larger spacing"))
 }
 
 /// Whether every probe stands where there is something to be seen.

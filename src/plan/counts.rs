@@ -98,7 +98,7 @@ impl Served {
 fn state_bytes<const D: usize>(scene: &Scene<D>, grid: &Grid<D>) -> usize {
     let ledger = scene.probes.iter().any(|probe| probe.watch == Watch::Energies);
     let fields = if ledger { 6 } else { 3 };
-    fields * size_of::<f64>() * grid.field().len()
+    fields * size_of::<f64>() * grid.len()
 }
 
 fn operator_bytes<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>, served: &Served) -> usize {

@@ -7,17 +7,18 @@ use crate::scene::{Scene, StepRule, Wrong};
 /// A march of more steps takes weeks on the smallest body.
 const MAX_STEPS: u64 = 1_000_000_000_000;
 
-/// From here on the search for the sharp limit in the plane takes minutes, and the row-sum bound stands in for it.
-const LARGEST_SEARCHED_M: f64 = 20.0;
+/// From here on the search for the sharp limit takes long, a tenth of a second in the plane, and the row-sum bound stands in
+/// for it.
+const LARGEST_SEARCHED_M: [f64; 2] = [1000.0, 20.0];
 
-/// The largest stable Δt in s of a lattice: sharp, or in the plane beyond m = 20 the row-sum bound.
+/// The largest stable Δt in s of a lattice: sharp, or beyond m = 1000 in a bar, 20 in the plane, the row-sum bound.
 pub fn stable_time_step<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>) -> f64 {
     let unit = scene.spacing / scene.speed();
     let bonds =
         |limit: fn(&Stencil<1>) -> timestep::TimeStep| Stencil::<1>::new(scene.lattice).map(|s| limit(&s));
     let courant = match D {
+        _ if scene.lattice.m > LARGEST_SEARCHED_M[D - 1] => Ok((2.0 / stencil.row_sum()).sqrt()),
         1 => bonds(timestep::bar).map(|limits| limits.sharp),
-        _ if scene.lattice.m > LARGEST_SEARCHED_M => Ok((2.0 / stencil.row_sum()).sqrt()),
         _ => Stencil::<2>::new(scene.lattice).map(|s| timestep::plane(&s).sharp),
     };
     courant.unwrap_or(f64::NAN) * unit

@@ -75,7 +75,8 @@ impl Asked for JumpConvergenceAsked {
         let bar = self.bar.check(written.material()?)?;
         let spacings = refining("dx_m", &self.dx_m, |coarse, fine| coarse > fine)?;
         let marching = marching(self.duration_s, None, self.safety)?;
-        let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;
+        let lattices =
+            self.lattice.marched(Body::Bar, 2 * spacings.len()).map_err(|wrong| wrong.inside("lattice"))?;
         let place = self.probe_m.0;
         let mut sequences = Vec::new();
         for (&lattice, name) in lattices.iter().zip(names(&lattices)) {

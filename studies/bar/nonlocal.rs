@@ -4,7 +4,7 @@ use super::pulsed::{Marched, PlainBarAsked, PulseShapeAsked, Pulsed, material};
 use super::ring::Ring;
 use crate::dispersion::curve::{reference_kernel, reference_lattice};
 use crate::dispersion::m_convergence;
-use crate::dispersion::sweep::{check_usable, kernels};
+use crate::dispersion::sweep::{check_marched, check_usable, kernels};
 use crate::dispersion::words::{KernelName, VolumeRuleName};
 use crate::input::OneOrMany;
 use crate::levels::{self, Sequence, refining, relative};
@@ -95,9 +95,11 @@ impl Asked for NonlocalPulseAsked {
             for rule in self.volume_rule.0.iter().map(|&rule| VolumeRule::from(rule)) {
                 for &calibrated in calibrated {
                     let of = |m| Lattice { kernel, m, volume_rule: rule, calibrated };
-                    check_usable(Body::Bar, &m.iter().map(|&m| of(m)).collect::<Vec<_>>())?;
+                    let lattices: Vec<Lattice> = m.iter().map(|&m| of(m)).collect();
+                    check_marched(Body::Bar, &lattices, 1 + refinements.len())?;
+                    check_usable(Body::Bar, &lattices)?;
                     let level = |&fine: &f64| {
-                        let steps = (per_look.ceil() * fine / m[0]).round() as u64 * looks;
+                        let steps = ((per_look.ceil() * fine / m[0]).round() as u64).saturating_mul(looks);
                         bar.marched(of(fine), horizon / fine, duration, steps, looks)
                     };
                     let weights = if calibrated { "calibrated" } else { "as printed" };

@@ -99,14 +99,18 @@ impl Asked for PulseAsked {
             let message = format!("{} looks at the bar are none or too many", self.looks);
             return Err(Wrong::new("looks", message, format!("take 1 to {MAX_LOOKS}")));
         }
-        let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;
+        let lattices = self
+            .lattice
+            .marched(Body::Bar, spacings.len() + 1 + halvings as usize)
+            .map_err(|wrong| wrong.inside("lattice"))?;
         let (duration, looks) = (self.duration_s.0, u64::from(self.looks));
         let safety = self.safety.map_or(0.8, |safety| safety.0);
         let mut refinements = Vec::new();
         for (&lattice, name) in lattices.iter().zip(names(&lattices)) {
             let coarsest = bar.steps(lattice, spacings[0], duration, safety, looks)? / looks;
-            let steps =
-                |spacing: f64| (coarsest as f64 * spacings[0] / spacing).round().max(1.0) as u64 * looks;
+            let steps = |spacing: f64| {
+                ((coarsest as f64 * spacings[0] / spacing).round().max(1.0) as u64).saturating_mul(looks)
+            };
             let march = |spacing, steps| bar.marched(lattice, spacing, duration, steps, looks);
             let second = spacings[1];
             refinements.push(Refinement {
@@ -118,7 +122,7 @@ impl Asked for PulseAsked {
                     .map(|&spacing| march(spacing, steps(spacing)))
                     .collect::<Result<_, _>>()?,
                 by_time_step: (0..=halvings)
-                    .map(|halving| march(second, steps(second) << halving))
+                    .map(|halving| march(second, steps(second).saturating_mul(1 << halving)))
                     .collect::<Result<_, _>>()?,
             });
         }

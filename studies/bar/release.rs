@@ -78,7 +78,7 @@ impl Asked for ReleaseAsked {
             return Err(Wrong::new("fourier_terms", message, format!("take 1 to {MAX_TERMS}")));
         }
         let marching = marching(self.duration_s, self.time_step_s, self.safety)?;
-        let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;
+        let lattices = self.lattice.marched(Body::Bar, 2).map_err(|wrong| wrong.inside("lattice"))?;
         let place = self.probe_m.0;
         let mut scenes = Vec::new();
         for &lattice in &lattices {

@@ -31,9 +31,18 @@ pub fn marching(
     scene::time::time(duration.0, safety.map(|s| s.0), time_step.map(|s| s.0), None)
 }
 
-/// Whole cells in a length; refused where they do not fill it.
+/// The reference sums all modes at all nodes: more take hours.
+const MOST_NODES: usize = 100_000;
+
+/// Whole cells in a length; refused where they do not fill it, or have too many modes.
 pub fn cells(length: f64, spacing: f64) -> Result<usize, Wrong> {
-    Ok(scene::size::cells([length], spacing)?.0[0])
+    let nodes = scene::size::cells([length], spacing)?.0[0];
+    if nodes > MOST_NODES {
+        let message =
+            format!("{nodes} nodes have too many modes for an exact answer, at most {MOST_NODES} are summed");
+        return Err(Wrong::new("dx_m", message, "take a larger spacing or a shorter bar"));
+    }
+    Ok(nodes)
 }
 
 /// The bar, checked.

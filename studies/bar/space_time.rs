@@ -44,7 +44,7 @@ impl Asked for SpaceTimeAsked {
 
     fn check(&self, written: &Written<'_>) -> Result<SpaceTime, Wrong> {
         let bar = self.bar.check(written.material()?)?;
-        let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;
+        let lattices = self.lattice.marched(Body::Bar, 2).map_err(|wrong| wrong.inside("lattice"))?;
         let [lattice] = lattices[..] else {
             return Err(Wrong::new("lattice", "a picture shows one lattice", "give one value for each key"));
         };

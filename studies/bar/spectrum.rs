@@ -74,7 +74,7 @@ impl Asked for SpectrumAsked {
 
     fn check(&self, written: &Written<'_>) -> Result<Spectrum, Wrong> {
         let bar = self.bar.check(written.material()?)?;
-        let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;
+        let lattices = self.lattice.marched(Body::Bar, 2).map_err(|wrong| wrong.inside("lattice"))?;
         let step = StepRule::Given { seconds: self.time_step_s.0, beyond_limit: false };
         let marching = Time { duration: self.duration_s.0, step };
         let look = |steps: u64| {

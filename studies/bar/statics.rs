@@ -104,7 +104,10 @@ impl Asked for StaticsAsked {
                 format!("{layer} loaded cells at each end of {fewest} are none or reach the middle");
             return Err(Wrong::new("layer_cells", message, format!("take 1 to {}", fewest / 8)));
         }
-        let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;
+        let lattices = self
+            .lattice
+            .marched(Body::Bar, 2 * (spacings.len() + 3))
+            .map_err(|wrong| wrong.inside("lattice"))?;
         let corrections =
             distinct(self.correction.clone().unwrap_or_else(|| one_or_many(Correction::None)).0);
         let (mut patches, mut still) = (Vec::new(), Vec::new());

@@ -59,7 +59,8 @@ impl Asked for TimeOrderAsked {
     fn check(&self, written: &Written<'_>) -> Result<TimeOrder, Wrong> {
         let bar = self.bar.check(written.material()?)?;
         let steps = refining("time_step_s", &self.time_step_s, |coarse, fine| coarse > fine)?;
-        let lattices = self.lattice.usable(Body::Bar).map_err(|wrong| wrong.inside("lattice"))?;
+        let lattices =
+            self.lattice.marched(Body::Bar, 2 * steps.len()).map_err(|wrong| wrong.inside("lattice"))?;
         let mut sequences = Vec::new();
         for (&lattice, name) in lattices.iter().zip(names(&lattices)) {
             let scene = |&seconds: &f64| {

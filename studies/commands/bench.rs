@@ -15,6 +15,7 @@ use crate::cli::{BenchOptions, BondOperator, Isa};
 use crate::input::Refusal;
 use crate::output::Output;
 use crate::progress::{Progress, interrupted};
+use crate::{afford, machine};
 use pd_verify::scene::{Operator, Scene};
 use serde_json::Value;
 use std::io::{self, Write};
@@ -76,12 +77,13 @@ fn case(options: &BenchOptions) -> Result<Case, Refusal> {
     };
     let case = Case::new(format!("{side}² nodes"), Scene { operator, ..bodies::plate([side; 2], m) });
     let plan = case.body.plan().map_err(|wrong| Refusal::new(wrong.message).help(wrong.help))?;
-    let (needed, free) = (memory::needed(&plan), memory::available());
-    if let Some(free) = free.filter(|free| needed > *free) {
+    let (needed, room) = (afford::needed(&plan), machine::room());
+    if needed > room.bytes {
         let message = format!(
-            "a plate of {side}² nodes with m = {m} takes {:.1} GB to make and march, and {:.1} GB are free",
+            "a plate of {side}² nodes with m = {m} takes {:.1} GB to make and march, and {:.1} GB are {}",
             needed / 1e9,
-            free / 1e9
+            room.bytes / 1e9,
+            room.of
         );
         return Err(Refusal::new(message).help("take fewer --nodes, a smaller --m, or --operator stencil"));
     }

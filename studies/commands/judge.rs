@@ -14,6 +14,7 @@ use crate::run::{Ran, merge, run};
 use crate::shipped::{commands, refuse_unused, shipped};
 use crate::study::Study;
 use crate::subject::{PdVerify, Subject, Timed};
+use crate::{afford, machine};
 use pd_verify::plan::time::Costs;
 use pd_verify::report::{
     Drawn, RunSummary, StudyReport, figure_table, index_html, junit_xml, summary_markdown, terminal_table,
@@ -146,7 +147,8 @@ fn compute(groups: Vec<Group>, options: &RunOptions) -> Result<End, Refusal> {
     if let Some(isa) = options.isa {
         isa.pin();
     }
-    check_work(&groups, options)?;
+    let studies = groups.iter().flat_map(|group| &group.studies);
+    afford::check(studies, options.profile, machine::threads(options.threads), machine::room())?;
     let folders: Vec<String> = groups.iter().map(|group| group.folder.clone()).collect();
     let output = Output::open(&options.out, &folders)?;
     let pool = threads(options.threads)?;
@@ -171,24 +173,6 @@ pub fn pools(count: Option<u16>) -> Result<Pools, Refusal> {
 fn costs(groups: &[Group], options: &RunOptions) -> Result<Option<Costs>, Refusal> {
     let asked = groups.iter().flat_map(|group| &group.studies).any(|study| study.kind == Kind::Cost);
     if asked { short::costs(options, &pools(options.threads)?).map(Some) } else { Ok(None) }
-}
-
-/// More than this many visits of a bond are hours of work; nobody means that.
-const MAX_VISITS: u64 = 2_000_000_000_000;
-
-fn check_work(groups: &[Group], options: &RunOptions) -> Result<(), Refusal> {
-    for study in groups.iter().flat_map(|group| &group.studies) {
-        let visits = study.effort(options.profile).bond_evaluations;
-        if visits > MAX_VISITS {
-            let message = format!(
-                "{}: {visits:e} bond evaluations are planned, at most {MAX_VISITS:e} are run",
-                study.id
-            );
-            return Err(Refusal::new(message)
-                .help("see `pd-verify plan`; fewer wavenumbers, nodes or steps, smaller m, shorter lists"));
-        }
-    }
-    Ok(())
 }
 
 fn compute_and_write(groups: &[Group], options: &RunOptions, costs: Option<Costs>, output: &Output) -> End {

@@ -5,9 +5,11 @@ use super::judge::settings;
 use super::scene_lines::{SceneLines, is_at_rest, seconds};
 use crate::bench::kept::{self, Kept};
 use crate::input::Refusal;
+use crate::machine::Room;
 use crate::question::{Effort, Planned, Profile};
 use crate::scene::effects;
 use crate::study::{Case, Study};
+use crate::{afford, machine};
 use pd_verify::plan::time::Costs;
 use serde_json::{Value, json};
 use std::fmt::Display;
@@ -31,21 +33,34 @@ pub fn plan(
 ) -> Result<String, Refusal> {
     let study = find(study, &settings(set)?)?;
     let measured = kept::read(out)?;
-    Ok(planned(&study, as_json, profile, measured.as_ref()))
+    Ok(planned(&study, as_json, profile, measured.as_ref(), machine::room()))
 }
 
-fn planned(study: &Study, as_json: bool, profile: Profile, measured: Option<&Kept>) -> String {
+/// What a run would refuse is shown all the same, and why.
+fn planned(study: &Study, as_json: bool, profile: Profile, measured: Option<&Kept>, room: Room) -> String {
+    let refused = afford::check([study], profile, machine::threads(None), room)
+        .err()
+        .map(|refusal| refusal.to_string());
+    let refused = refused.as_deref();
     let rows: Vec<Row> = study.cases.iter().map(|case| row_of(case, profile)).collect();
     let mut total = Effort::default();
     rows.iter().filter(|row| row.runs).for_each(|row| total += row.effort);
     match as_json {
-        true => as_data(study, profile, &rows, total, measured),
-        false => as_text(study, profile, &rows, total, measured),
+        true => as_data(study, profile, &rows, total, measured, refused),
+        false => as_text(study, profile, &rows, total, measured, refused),
     }
 }
 
-fn as_text(study: &Study, profile: Profile, rows: &[Row], total: Effort, measured: Option<&Kept>) -> String {
+fn as_text(
+    study: &Study,
+    profile: Profile,
+    rows: &[Row],
+    total: Effort,
+    measured: Option<&Kept>,
+    refused: Option<&str>,
+) -> String {
     let mut text = format!("{}: {}\nprofile {profile}; {}\n", study.id, study.title, marched(rows));
+    text += &refused.map_or(String::new(), |why| format!("not run here: {why}\n"));
     text += &(time(rows, measured) + "\n");
     text += &line([
         "case",
@@ -81,7 +96,14 @@ fn row_of(case: &Case, profile: Profile) -> Row<'_> {
     Row { case, runs: case.profile <= profile, effort: case.question.effort(), scenes }
 }
 
-fn as_data(study: &Study, profile: Profile, rows: &[Row], total: Effort, measured: Option<&Kept>) -> String {
+fn as_data(
+    study: &Study,
+    profile: Profile,
+    rows: &[Row],
+    total: Effort,
+    measured: Option<&Kept>,
+    refused: Option<&str>,
+) -> String {
     let costs = measured.map(|measured| &measured.costs);
     let scene = |scene: &Planned| {
         let mut value = json!(scene);
@@ -104,6 +126,7 @@ fn as_data(study: &Study, profile: Profile, rows: &[Row], total: Effort, measure
         "profile": profile.to_string(),
         "cases": cases,
         "total": total,
+        "refused": refused,
         "predicted_seconds": costs.map(|costs| in_all(rows, costs)),
         "predicted_with": measured.map(|measured| json!({
             "isa": measured.isa, "threads": measured.threads, "cpu": measured.cpu,
@@ -184,6 +207,8 @@ mod tests {
     use pd_verify::plan::time::BodyCosts;
     use pd_verify::plan::work::{Kinds, Work};
 
+    const VAST: Room = Room { bytes: 1e12, of: "free in a hall" };
+
     /// A question that marches one scene.
     struct Marching;
 
@@ -244,9 +269,10 @@ mod tests {
         let (mut study, _) = Study::read(name, text, &[]).unwrap();
         study.cases.truncate(2);
         study.cases[1].question = Box::new(Marching);
-        let text = planned(&study, false, Profile::Quick, Some(&kept));
+        let text = planned(&study, false, Profile::Quick, Some(&kept), VAST);
         assert!(text.contains("time to march: 3.000 s, as measured with avx2 on 4 threads of a\n"), "{text}");
-        let data: Value = serde_json::from_str(&planned(&study, true, Profile::Quick, Some(&kept))).unwrap();
+        let data: Value =
+            serde_json::from_str(&planned(&study, true, Profile::Quick, Some(&kept), VAST)).unwrap();
         for seconds in [&data["predicted_seconds"], &data["cases"][1]["scenes"][0]["predicted_seconds"]] {
             assert!((seconds.as_f64().unwrap() - 3.0).abs() < 1e-12, "{seconds}");
         }
@@ -259,21 +285,39 @@ mod tests {
         let (mut study, _) = Study::read(name, text, &[]).unwrap();
         study.cases.truncate(2);
         let nothing = "nothing is marched in time";
-        assert!(planned(&study, false, Profile::Quick, None).contains(nothing));
+        assert!(planned(&study, false, Profile::Quick, None, VAST).contains(nothing));
         study.cases[1].question = Box::new(Marching);
-        let text = planned(&study, false, Profile::Quick, None);
+        let text = planned(&study, false, Profile::Quick, None, VAST);
         assert!(!text.contains(nothing), "{text}");
         for word in ["1 scene to march", "node updates", " 2000000 ", "effects off: damage", "half families"]
         {
             assert!(text.contains(word), "no {word}: {text}");
         }
         let data: serde_json::Value =
-            serde_json::from_str(&planned(&study, true, Profile::Quick, None)).unwrap();
+            serde_json::from_str(&planned(&study, true, Profile::Quick, None, VAST)).unwrap();
         assert_eq!(data["cases"][0]["scenes"], json!([]));
         assert_eq!(data["cases"][1]["scenes"][0]["steps"], 2000);
         assert_eq!(data["total"]["node_updates"], 2_000_000);
         assert!(text.contains("unknown: run pd-verify bench"), "{text}");
         assert!(data["predicted_seconds"].is_null() && data["predicted_with"].is_null());
+    }
+
+    #[test]
+    fn what_does_not_fit_is_shown_and_said() {
+        let (name, text) = SHIPPED[0];
+        let (mut study, _) = Study::read(name, text, &[]).unwrap();
+        study.cases[1].question = Box::new(Marching);
+        let drawer = Room { bytes: 1e4, of: "free in a drawer" };
+        let text = planned(&study, false, Profile::Full, None, drawer);
+        // 1000 nodes of 48 bytes, and half as much again.
+        assert!(text.contains("not run here: ") && text.contains("1000 nodes takes 0.00 GB"), "{text}");
+        assert!(text.contains("1 scene to march"), "{text}");
+        let refused = |room| {
+            let data: Value =
+                serde_json::from_str(&planned(&study, true, Profile::Full, None, room)).unwrap();
+            data["refused"].as_str().map(str::to_owned)
+        };
+        assert!(refused(drawer).unwrap().contains("free in a drawer") && refused(VAST).is_none());
     }
 
     #[test]

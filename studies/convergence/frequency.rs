@@ -78,7 +78,9 @@ impl Asked for FrequencyAsked {
 
     fn check(&self, written: &Written<'_>) -> Result<Box<dyn Question>, Wrong> {
         let body = Body::from(self.body);
-        let lattices = self.lattice.usable(body).map_err(|wrong| wrong.inside("lattice"))?;
+        let along = 2 * self.direction.as_ref().map_or(1, Vec::len);
+        let marches = along.saturating_mul(self.cells_per_wave.0.len());
+        let lattices = self.lattice.marched(body, marches).map_err(|wrong| wrong.inside("lattice"))?;
         let title = written.title.to_owned();
         match (body, &self.direction) {
             (Body::Bar, None) => {

@@ -1,7 +1,7 @@
 //! How a case refines: δ → 0 at fixed m, m → ∞ at fixed δ, or both along a path; and the weights that it refines with.
 
 use crate::dispersion::m_convergence;
-use crate::dispersion::sweep::{check_count, check_sizes, kernels};
+use crate::dispersion::sweep::{check_count, check_marched, check_sizes, kernels};
 use crate::dispersion::words::{KernelName, VolumeRuleName};
 use crate::input::{OneOrMany, one_or_many};
 use pd_verify::kernel::Kernel;
@@ -170,6 +170,7 @@ impl PathAsked {
         match self.refine {
             Refine::Delta => {
                 let spacings = spacings()?;
+                check_count(&[m.len(), spacings.len()])?;
                 Ok(m.iter().map(|&m| spacings.iter().map(|&dx| pair((m, dx))).collect()).collect())
             }
             Refine::M => {
@@ -198,6 +199,7 @@ impl PathAsked {
     pub fn sequences(&self, body: Body, weights: &WeightsAsked) -> Result<Vec<Sequence>, Wrong> {
         let levels = self.levels().map_err(|wrong| wrong.inside("path"))?;
         let weights = weights.all().map_err(|wrong| wrong.inside("weights"))?;
+        check_count(&[weights.len(), levels.len(), levels.first().map_or(0, Vec::len)])?;
         let of = |weights: &Weights| {
             let (refine, weights) = (self.refine, *weights);
             levels
@@ -206,6 +208,9 @@ impl PathAsked {
                 .collect::<Vec<_>>()
         };
         let sequences: Vec<Sequence> = weights.iter().flat_map(of).collect();
+        let finest: Vec<Lattice> = sequences.iter().map(|one| one.lattice(one.finest())).collect();
+        let most = sequences.iter().map(|one| one.levels.len()).max().unwrap_or(0);
+        check_marched(body, &finest, most).map_err(|wrong| wrong.inside("path"))?;
         let each = sequences.iter().flat_map(|one| one.levels.iter().map(|level| one.lattice(*level)));
         check_sizes(body, &each.collect::<Vec<_>>()).map_err(|wrong| wrong.inside("path"))?;
         Ok(sequences)

@@ -71,6 +71,8 @@ pub struct Marched<const D: usize> {
 
 /// Largest whole number of a direction.
 const LARGEST: u32 = 40;
+/// Wavelengths tried on each side of the one asked for.
+const TRIED: u64 = 10_000;
 /// The amplitude in m; the body is linear, so that it is of no account.
 pub const HEIGHT: f64 = 1e-6;
 
@@ -170,7 +172,8 @@ where
             })
         };
         let wanted = (unit / coarse).round().max(1.0);
-        let near = (0..=wanted as u64).flat_map(|off| [wanted - off as f64, wanted + off as f64]);
+        let near =
+            (0..=(wanted as u64).min(TRIED)).flat_map(|off| [wanted - off as f64, wanted + off as f64]);
         let Some(found) = near.filter(|n| *n >= 1.0).find(|n| whole(*n)) else {
             let message = "no wave near this length has whole cells at every level";
             return Err(Wrong::new("path", message, "let each dx divide the coarsest, or take other m"));

@@ -8,6 +8,7 @@ use pd_verify::material::Body;
 use pd_verify::scene::{Positive, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::collections::HashSet;
 
 /// Every combination of these is a lattice. `p` goes with `gaussian` and `exponential`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -57,6 +58,45 @@ impl LatticeSweep {
     }
 }
 
+/// A case that marches more bodies is a slip of the pen.
+const MAX_MARCHES: usize = 10_000;
+
+/// Visits of bonds by which the limits on Δt may be searched for, before anything is marched: seconds.
+const MAX_SEARCHED: f64 = 5e8;
+
+impl LatticeSweep {
+    /// The same for bodies that are marched, so many of each lattice.
+    pub fn marched(&self, body: Body, each: usize) -> Result<Vec<Lattice>, Wrong> {
+        let lattices = self.lattices()?;
+        check_marched(body, &lattices, each)?;
+        check_usable(body, &lattices)?;
+        Ok(lattices)
+    }
+}
+
+/// Refuses more marches than are run, and lattices whose limits on Δt take long to find; so many marches of each.
+pub fn check_marched(body: Body, lattices: &[Lattice], each: usize) -> Result<(), Wrong> {
+    let marches = lattices.len().saturating_mul(each);
+    if marches > MAX_MARCHES {
+        let message = format!("{marches} bodies are asked for, at most {MAX_MARCHES} are marched by a case");
+        return Err(Wrong::new("", message, "shorten its lists, or split the case"));
+    }
+    check_sizes(body, lattices)?;
+    // Eight samples to the shortest harmonic, along each axis; in the plane a lattice is searched once for all spacings.
+    let search = |lattice: &Lattice| match body {
+        Body::Bar => 8.0 * (lattice.m + 1.0).powi(2) * each as f64,
+        Body::PlaneStress | Body::PlaneStrain => 51.0 * (lattice.m.min(20.0) + 1.0).powi(4),
+    };
+    let visits: f64 = lattices.iter().map(search).sum();
+    if visits <= MAX_SEARCHED {
+        return Ok(());
+    }
+    let message = format!(
+        "the largest time steps of {marches} bodies would be sought by {visits:.1e} visits of bonds, at most {MAX_SEARCHED:.0e} are made"
+    );
+    Err(Wrong::new("m", message, "take fewer lattices, or a smaller m"))
+}
+
 /// Each value once, in the order of first appearance.
 pub fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
     let mut seen = Vec::new();
@@ -102,13 +142,9 @@ pub fn kernels(names: &OneOrMany<KernelName>, p: Option<&OneOrMany<Positive>>) -
             KernelName::Exponential => all.extend::<Vec<_>>(many(|p| Kernel::Exponential { p })?),
         }
     }
-    let mut once: Vec<Kernel> = Vec::new();
-    all.into_iter().for_each(|kernel| {
-        if !once.contains(&kernel) {
-            once.push(kernel)
-        }
-    });
-    Ok(once)
+    let mut seen = HashSet::new();
+    all.retain(|kernel| seen.insert((kernel.name(), kernel.p().map(f64::to_bits))));
+    Ok(all)
 }
 
 /// Refuses a product of lists that is beyond measure.

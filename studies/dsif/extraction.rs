@@ -225,7 +225,26 @@ pub struct Prepared {
     pub condition: Option<f64>,
 }
 
+/// Numbers that a fit may have: nodes times unknowns; more take gigabytes to prepare.
+const MOST_NUMBERS: f64 = 2e7;
+
 impl Extraction {
+    /// Refuses what would look at more nodes than are fitted; lengths in m.
+    pub fn check_size(&self, horizon: f64, spacing: f64) -> Result<(), Wrong> {
+        let reach = self.reach(horizon, spacing) / spacing;
+        let numbers = std::f64::consts::PI * reach * reach * (2 * self.terms().unwrap_or(1) + 2) as f64;
+        if numbers <= MOST_NUMBERS {
+            return Ok(());
+        }
+        let message =
+            format!("{} looks {reach:.0} cells around the tip: a fit of {numbers:.1e} numbers", self.name);
+        Err(Wrong::new(
+            "",
+            message,
+            format!("take a smaller radius or m, or fewer terms: at most {MOST_NUMBERS:.0e}"),
+        ))
+    }
+
     /// The same with another outer radius, in δ, and another highest term, where it has them.
     pub fn with(&self, outer_horizons: f64, terms: Option<usize>) -> Self {
         let wider = |ring: Ring| Ring { outer: Outer::Horizons(outer_horizons), ..ring };

@@ -7,11 +7,12 @@ use super::intensity_report as report;
 use super::known::{Known, KnownAsked, Window, WindowAsked, holds_until};
 use super::load::{Load, LoadAsked, On};
 use super::plate::PlateAsked;
-use super::said::{check_levels, check_name};
+use super::said::{check_cells, check_lattices, check_levels, check_name};
 use super::setup::{Problem, SAFETY, Seen, Setup};
 use super::tips::Tips;
 use crate::bar::names;
 use crate::convergence::path::{Weights, WeightsAsked};
+use crate::dispersion::sweep::check_count;
 use crate::input::OneOrMany;
 use crate::question::{Answer, Effort, Place, Planned, Question};
 use crate::subject::Subject;
@@ -133,9 +134,11 @@ impl IntensityAsked {
         let extractions = extractions(&self.extraction)?;
         let levels = self.levels()?;
         let (mut last, mut ends) = (f64::INFINITY, "");
+        let mut cells = Vec::new();
         for &(m, dx) in levels.iter().flatten() {
             let plate = self.plate.on(dx)?;
             known.check_height(&self.plate, &plate)?;
+            cells.push(plate.nodes);
             let (until, what) = holds_until(&known, (material, body), &plate, &load)?;
             let until = until - seen_before(&extractions, m * dx, (material, body), &load);
             if until < last {
@@ -152,6 +155,8 @@ impl IntensityAsked {
             safety: self.safety.map_or(SAFETY, |safety| safety.0),
         };
         let mut tracks = Vec::new();
+        check_cells(&cells, weights.len())?;
+        check_lattices(weights, &self.m.0, self.dx_m.as_ref().map_or(1, |dx| dx.0.len()))?;
         for levels in &levels {
             for weights in weights {
                 let mut setups: Vec<Setup> = Vec::new();
@@ -201,10 +206,18 @@ fn seen_before(
     if load.on == On::Faces { widest / material.dilatational_speed(body) } else { 0.0 }
 }
 
+/// Each is prepared for every lattice.
+const MOST_EXTRACTIONS: usize = 200;
+
 /// Extractions with names of their own.
 pub fn extractions(asked: &[ExtractionAsked]) -> Result<Vec<Extraction>, Wrong> {
     if asked.is_empty() {
         return Err(Wrong::new("", "no extraction reads K", "add [[case.extraction]] with a method"));
+    }
+    if asked.len() > MOST_EXTRACTIONS {
+        let message =
+            format!("{} extractions are more than the {MOST_EXTRACTIONS} that are prepared", asked.len());
+        return Err(Wrong::new("extraction", message, "split the case"));
     }
     let mut all: Vec<Extraction> = Vec::new();
     for (index, one) in asked.iter().enumerate() {
@@ -236,6 +249,7 @@ impl IntensityAsked {
             (Some(dx), None) => {
                 let dx: Vec<f64> = dx.0.iter().map(|dx| dx.0).collect();
                 check_levels(&dx)?;
+                check_count(&[m.len(), dx.len()])?;
                 Ok(m.iter().map(|&m| dx.iter().map(|&dx| (m, dx)).collect()).collect())
             }
             (None, Some(horizon)) => {

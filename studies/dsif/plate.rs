@@ -64,6 +64,9 @@ pub struct Cracked {
 /// How far before a tip the cut ends, in spacings: the bonds that pass through the tip itself hold.
 pub const BEFORE_TIP: f64 = 1e-3;
 
+/// Finer plates take days to march, and seconds to plan.
+const MOST_CELLS: f64 = 5e7;
+
 impl PlateAsked {
     /// The plate on cells of `dx` m: whole cells, an even number of rows, the tip at a multiple of half a cell.
     pub fn on(&self, dx: f64) -> Result<Cracked, Wrong> {
@@ -84,6 +87,13 @@ impl PlateAsked {
             let message =
                 format!("cells of {dx} m leave {columns} by {rows} of them, and a crack of {crack} m");
             return Err(Wrong::new("dx_m", message, "take a smaller dx_m"));
+        }
+        if columns * rows > MOST_CELLS {
+            let message = format!(
+                "cells of {dx} m are {:.1e} in the plate, at most {MOST_CELLS:.0e} are run",
+                columns * rows
+            );
+            return Err(Wrong::new("dx_m", message, "take a larger dx_m"));
         }
         if right > columns * dx - dx {
             let message = format!("the crack of {crack} m ends outside the plate of {} m", columns * dx);

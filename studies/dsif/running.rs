@@ -6,7 +6,7 @@ use super::load::{Load, LoadAsked, On};
 use super::plate::{CrackPlace, PlateAsked};
 use super::running_report as report;
 use super::runs::{Run, Way, check_speeds};
-use super::said::{check_levels, check_reason};
+use super::said::{check_cells, check_lattices, check_levels, check_reason};
 use super::setup::{Problem, SAFETY, Seen, Setup};
 use super::smooth::smooth;
 use crate::convergence::path::WeightsAsked;
@@ -84,6 +84,9 @@ pub struct Ran {
     pub smoothed: Vec<Option<f64>>,
 }
 
+/// Highest term that is fitted.
+const MOST_TERMS: usize = 40;
+
 impl Asked for RunningAsked {
     type Question = RunningCrack;
 
@@ -115,8 +118,9 @@ impl Asked for RunningAsked {
         let spacings: Vec<f64> = self.dx_m.0.iter().map(|dx| dx.0).collect();
         check_levels(&spacings)?;
         check_reason(&self.because)?;
-        if self.terms == Some(0) {
-            return Err(Wrong::new("terms", "K is the first term", "give 1 or more"));
+        if self.terms.is_some_and(|terms| !(1..=MOST_TERMS).contains(&terms)) {
+            let message = "K is the first term, and rounding drowns the fit of very many";
+            return Err(Wrong::new("terms", message, format!("give 1 to {MOST_TERMS}")));
         }
         let elastic = Elastic::of(material, body)
             .ok_or_else(|| Wrong::new("plate.body", "a bar has no crack", "take a plate"))?;
@@ -127,9 +131,11 @@ impl Asked for RunningAsked {
         let slowest = shares.iter().copied().fold(f64::INFINITY, f64::min) * rayleigh;
         let until = to + 0.5 * spacings[0] / slowest;
         let fastest = shares.iter().copied().fold(0.0, f64::max) * rayleigh;
+        let mut cells = Vec::new();
         for &dx in &spacings {
             let plate = self.plate.on(dx)?;
             known.check_height(&self.plate, &plate)?;
+            cells.push(plate.nodes);
             let further = plate.further(fastest * (until - start));
             let (at_rest, _) = holds_until(&known, (material, body), &plate, &load)?;
             let (gone, _) = holds_until(&known, (material, body), &further, &load)?;
@@ -143,6 +149,8 @@ impl Asked for RunningAsked {
                 return Err(Wrong::new("to_arrivals", message, "end earlier, or take a larger plate"));
             }
         }
+        check_lattices(&[weights], &[self.m], self.speeds.len().saturating_mul(spacings.len()))?;
+        check_cells(&cells, self.speeds.len())?;
         let problem =
             Problem { material, body, plate: self.plate.clone(), load: load.clone(), until, safety: SAFETY };
         let outer = self.outer_horizons.map_or(3.0, |outer| outer.0);

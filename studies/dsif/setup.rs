@@ -105,6 +105,7 @@ impl Problem {
 
 /// Refuses a tip nearer to an edge than an extraction looks.
 fn check_room(extraction: &Extraction, plate: &Cracked, horizon: f64) -> Result<(), Wrong> {
+    extraction.check_size(horizon, plate.spacing)?;
     let reach = extraction.reach(horizon, plate.spacing);
     if reach <= plate.room() {
         return Ok(());

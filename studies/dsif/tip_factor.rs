@@ -4,7 +4,7 @@
 use super::extraction::{Extraction, ExtractionAsked};
 use super::intensity::extractions;
 use super::load::ModeName;
-use super::said::{check_name, check_reason};
+use super::said::{check_lattices, check_name, check_reason};
 use super::tip::{REACH, TipAtRest, TipField};
 use super::tip_factor_report as report;
 use crate::bar::names;
@@ -101,11 +101,16 @@ impl Asked for TipFactorAsked {
         }
         let extractions = extractions(&self.extraction)?;
         let weights = self.weights.all().map_err(|wrong| wrong.inside("weights"))?;
+        check_lattices(&weights, &self.m.0, 4)?;
         let mut lattices = Vec::new();
         let mut slugs = Vec::new();
         for m in &self.m.0 {
             for weights in &weights {
                 let lattice = weights.lattice(m.0);
+                for (index, extraction) in extractions.iter().enumerate() {
+                    let inside = |wrong: Wrong| wrong.inside(&format!("extraction[{index}]"));
+                    extraction.check_size(lattice.m, 1.0).map_err(inside)?;
+                }
                 let ready = TipAtRest::new(lattice, (Body::PlaneStress, Correction::None), true, REACH);
                 let ready = ready.map_err(|message| Wrong::new("m", message, "take a larger m"))?;
                 let smaller =

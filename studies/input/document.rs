@@ -17,6 +17,9 @@ pub const MAX_BYTES: usize = 4 << 20;
 /// Keys nested deeper than this belong to no study.
 const MAX_DEPTH: usize = 32;
 
+/// A list longer than this is a slip of the pen.
+const MAX_ITEMS: usize = 100_000;
+
 /// The text of a study, its values in SI, and where they stand.
 #[derive(Debug, Clone)]
 pub struct Document {
@@ -112,6 +115,10 @@ impl Document {
             }
             DeValue::Datetime(_) => {
                 Err(self.refuse_span(format!("{path} is a date, which no study asks for"), value.span()))
+            }
+            DeValue::Array(items) if items.len() > MAX_ITEMS => {
+                let message = format!("{path} has {} values, at most {MAX_ITEMS} are read", items.len());
+                Err(self.refuse_span(message, value.span()).help("shorten the list, or split the study"))
             }
             DeValue::Array(items) => {
                 let mut values = Vec::new();

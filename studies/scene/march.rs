@@ -104,7 +104,7 @@ impl Asked for MarchAsked {
     fn check(&self, written: &Written<'_>) -> Result<March, Wrong> {
         let material = written.material()?;
         let of = Body::from(self.body);
-        let lattices = self.lattice.usable(of).map_err(|wrong| wrong.inside("lattice"))?;
+        let lattices = self.lattice.marched(of, 3).map_err(|wrong| wrong.inside("lattice"))?;
         if lattices.len() > MAX_SCENES {
             let message =
                 format!("{} scenes are asked for, at most {MAX_SCENES} are marched", lattices.len());

@@ -1,5 +1,7 @@
-//! `pd-verify stability`: cases that break codes: time steps at and beyond the limit of a body, very many steps, rotations, other units.
+//! `pd-verify stability`: cases that break codes: time steps at and beyond the limit of a body, very many steps, rotations, other units, digits lost.
 
+pub mod arithmetic;
+mod arithmetic_sums;
 pub mod body;
 mod growing;
 pub mod long_run;
@@ -17,11 +19,18 @@ pub const WORDS: &[Word] = &[
     Word::of::<long_run::LongRunAsked>("long_run"),
     Word::of::<rotation::RotationAsked>("rotation"),
     Word::of::<scaling::ScalingAsked>("scaling"),
+    Word::of::<arithmetic::ArithmeticAsked>("arithmetic"),
 ];
 
 /// Files that cases share; no figure may take their names.
-pub const TABLES: &[&str] =
-    &["stability_long_run", "stability_rotation", "stability_scaling", "stability_time_steps", "verdicts"];
+pub const TABLES: &[&str] = &[
+    "stability_arithmetic",
+    "stability_long_run",
+    "stability_rotation",
+    "stability_scaling",
+    "stability_time_steps",
+    "verdicts",
+];
 
 /// Ends of the names of figures beside the one that is called like its case.
 pub const SUFFIXES: &[&str] = &["-mode"];

@@ -307,7 +307,7 @@ pub fn bodies(
         let message = "a body this large is not marched for so many steps";
         return Err(Wrong::new("body.nodes", message, format!("take at most {MOST_NODES} nodes")));
     }
-    let lattices = sweep.usable(Body::from(asked.is)).map_err(|wrong| wrong.inside("lattice"))?;
+    let lattices = sweep.marched(Body::from(asked.is), 3).map_err(|wrong| wrong.inside("lattice"))?;
     let made = |lattice: &Lattice| asked.check(material, *lattice).map_err(|wrong| wrong.inside("body"));
     let bodies = lattices.iter().map(made).collect::<Result<Vec<_>, Wrong>>()?;
     Ok((lattices, bodies))

@@ -5,6 +5,8 @@ mod commands;
 mod cost;
 mod cracks;
 #[cfg(unix)]
+mod faults;
+#[cfg(unix)]
 mod holed;
 mod interruption;
 mod limits;

@@ -1,26 +1,47 @@
-//! Any bytes are a study or a refusal that can be printed; nothing panics, nothing loops.
+//! Any bytes are a study that can be planned or a refusal that can be printed; nothing panics, nothing loops.
+//!
+//! The program's modules that read and plan stand here as they stand in `studies/main.rs`: what runs, prints and writes is
+//! left out.
 
 #![no_main]
+#![allow(dead_code, unused_imports)]
 
+#[path = "../../studies/afford.rs"]
+mod afford;
+#[path = "../../studies/attachment.rs"]
+mod attachment;
+#[path = "../../studies/bar/mod.rs"]
+mod bar;
+#[path = "../../studies/convergence/mod.rs"]
+mod convergence;
+#[path = "../../studies/dispersion/mod.rs"]
+mod dispersion;
+#[path = "../../studies/dsif/mod.rs"]
+mod dsif;
+mod exercise;
 #[path = "../../studies/input/mod.rs"]
-#[allow(dead_code, unused_imports)]
 mod input;
+#[path = "../../studies/kind.rs"]
+mod kind;
+#[path = "../../studies/levels.rs"]
+mod levels;
+#[path = "../../studies/machine.rs"]
+mod machine;
+#[path = "../../studies/question.rs"]
+mod question;
+#[path = "../../studies/rounded.rs"]
+mod rounded;
+#[path = "../../studies/scene/mod.rs"]
+mod scene;
+#[path = "../../studies/stability/mod.rs"]
+mod stability;
+#[path = "../../studies/study.rs"]
+mod study;
+#[path = "../../studies/subject.rs"]
+mod subject;
+#[path = "../../studies/written.rs"]
+mod written;
 
-use input::{Document, OneOrMany, Setting};
-use libfuzzer_sys::fuzz_target;
-
-fuzz_target!(|bytes: &[u8]| {
-    let Ok(text) = std::str::from_utf8(bytes) else { return };
-    let mut document = match Document::parse("study.toml", text) {
-        Ok(document) => document,
-        Err(refusal) => return drop(format!("{:?}", miette::Report::new(refusal))),
-    };
-    // The first line once more, as a change from the command line.
-    if let Ok(setting) = Setting::parse(text.lines().next().unwrap_or_default()) {
-        let _ = document.set(&setting);
-    }
-    let cases = document.get("case").cloned().unwrap_or_default();
-    if let Err(refusal) = document.read::<OneOrMany<f64>>("case", &cases, &["id"]) {
-        drop(format!("{:?}", miette::Report::new(refusal)));
-    }
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    exercise::exercise(bytes);
 });

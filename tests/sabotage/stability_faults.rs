@@ -3,19 +3,26 @@
 
 use super::dsif_faults::Fault;
 use crate::subject::{PdVerify, Subject};
+use pd_verify::dispersion::Wave;
+use pd_verify::dispersion::bar::BarDispersion;
 use pd_verify::dispersion::timestep::TimeStep;
 use pd_verify::fastest::Fastest;
 use pd_verify::forces::surface::Correction;
 use pd_verify::forces::{BodyForce, Damping};
+use pd_verify::kernel::Kernel;
 use pd_verify::lattice::Stencil;
+use pd_verify::material::Body;
 use pd_verify::record::{Failure, Record};
 use pd_verify::scene::{Axis, HistoryAsked, Positive, Rotations, Scene, StepRule};
+use pd_verify::stress_intensity::{Faces, Reading};
+use pd_verify_reference::released_bar::ReleasedBar;
 use std::sync::Arc;
 
 const STEPS: &[&str] = &["stability-time-step"];
 const LONG: &[&str] = &["stability-long-run"];
 const TURNS: &[&str] = &["stability-rotation"];
 const UNITS: &[&str] = &["stability-scaling"];
+const DIGITS: &[&str] = &["stability-arithmetic"];
 
 /// All of them.
 pub fn all() -> Vec<Fault> {
@@ -23,6 +30,7 @@ pub fn all() -> Vec<Fault> {
     let long = |name, subject| Fault { name, studies: LONG, subject };
     let turns = |name, subject| Fault { name, studies: TURNS, subject };
     let units = |name, subject| Fault { name, studies: UNITS, subject };
+    let digits = |name, subject| Fault { name, studies: DIGITS, subject };
     vec![
         fault("marched with steps a fiftieth too long", Box::new(OtherStep(1.02)) as Box<dyn Subject + Send>),
         fault("marched with steps a fiftieth too short", Box::new(OtherStep(0.98))),
@@ -43,6 +51,11 @@ pub fn all() -> Vec<Fault> {
             "bonds of small bodies are a billionth softer",
             Box::new(Acted(soft_when_small, soft_when_small)),
         ),
+        digits("long waves by 1 − cos", Box::new(Printed)),
+        digits("stretched bonds keep their direction", Box::new(Law(Rotations::Small))),
+        digits("c₀ by the printed closed forms", Box::new(Printed)),
+        digits("a Fourier series without its last term", Box::new(Shorter)),
+        digits("K off in its twelfth digit", Box::new(TwelfthDigit)),
     ]
 }
 
@@ -204,5 +217,41 @@ fn later(failure: Failure) -> Failure {
             Failure::Diverged { scene, step: 3 * step, time: 3.0 * time, over_limit }
         }
         other => other,
+    }
+}
+
+/// Formulas as they are printed.
+struct Printed;
+
+impl Subject for Printed {
+    fn bar_wave(&self, relation: &BarDispersion, k_dx: f64) -> Wave {
+        let terms = relation.weights().iter().zip(1..);
+        let square: f64 = terms.map(|(w, j)| 2.0 * w * (1.0 - libm::cos(f64::from(j) * k_dx))).sum();
+        Wave { omega: square.sqrt(), ..PdVerify.bar_wave(relation, k_dx) }
+    }
+
+    fn micromodulus(&self, body: Body, kernel: Kernel, e: f64, section: f64, horizon: f64) -> f64 {
+        match (body, kernel) {
+            (Body::Bar, Kernel::Gaussian { p }) => {
+                2.0 * e * p * p / (section * horizon * horizon * (1.0 - libm::exp(-p * p)))
+            }
+            _ => PdVerify.micromodulus(body, kernel, e, section, horizon),
+        }
+    }
+}
+
+struct Shorter;
+
+impl Subject for Shorter {
+    fn released_strain(&self, bar: &ReleasedBar, x: f64, t: f64, terms: usize) -> f64 {
+        PdVerify.released_strain(bar, x, t, terms - 1)
+    }
+}
+
+struct TwelfthDigit;
+
+impl Subject for TwelfthDigit {
+    fn stress_intensity(&self, reading: &Reading, u: &[[f64; 2]], a: &[[f64; 2]], faces: Faces) -> [f64; 2] {
+        PdVerify.stress_intensity(reading, u, a, faces).map(|k| k * (1.0 + 1e-12))
     }
 }
