@@ -1,5 +1,6 @@
 //! The program as its users meet it: exit codes, messages, and the files it writes or leaves alone.
 
+mod avoidable;
 mod bench;
 mod commands;
 mod cost;
