@@ -1,5 +1,6 @@
-//! `pd-verify cost --advise`: the cheapest settings that are as accurate as asked.
+//! `pd-verify cost`: the cheapest settings that are as accurate as asked (`--advise`), or a scene of one's own.
 
+use super::cost_scene::cost_scene;
 use super::judge::End;
 use super::{folder, say};
 use crate::attachment::Attachment;
@@ -10,11 +11,25 @@ use crate::input::Refusal;
 use crate::output::Output;
 use std::io::{self, Write};
 
+/// Dilatational waves in steel in plane stress, in m/s.
+const SPEED: f64 = 5354.0;
+
 /// The folder below `--out`.
 const FOLDER: &str = "advice";
 
-/// Searches, prints and writes.
+/// Answers whichever is asked.
 pub fn cost(options: &CostOptions) -> Result<u8, Refusal> {
+    match &options.scene {
+        Some(scene) => cost_scene(options, scene),
+        None if options.advise => advised(options),
+        None => Err(Refusal::new("what is to cost what?").help(
+            "give --advise --error E --wavelength L for settings, or a scene of your own with --error X or --budget SECONDS",
+        )),
+    }
+}
+
+/// Searches, prints and writes.
+fn advised(options: &CostOptions) -> Result<u8, Refusal> {
     let asked = asked(options)?;
     let output = Output::open(&options.out, &[FOLDER.to_owned()])?;
     let pool =
@@ -52,6 +67,7 @@ fn asked(options: &CostOptions) -> Result<Asked, Refusal> {
         Err(Refusal::new(format!("--{name} {value} is not a positive number"))
             .help(format!("as in --{name} {example}")))
     };
+    let (error, wavelength) = (error.unwrap_or(f64::NAN), wavelength.unwrap_or(f64::NAN));
     let error = positive("error", error, "0.01")?;
     if error >= 1.0 {
         return Err(Refusal::new(format!("--error {error} lets waves be wrong by as much as they are"))
@@ -70,7 +86,7 @@ fn asked(options: &CostOptions) -> Result<Asked, Refusal> {
     Ok(Asked {
         error,
         wavelength: positive("wavelength", wavelength, "0.02")?,
-        speed: positive("speed", speed, "5354")?,
+        speed: positive("speed", speed.unwrap_or(SPEED), "5354")?,
         bound,
     })
 }

@@ -4,6 +4,7 @@ mod avoidable;
 mod bench;
 mod commands;
 mod cost;
+mod cost_scene;
 mod cracks;
 #[cfg(unix)]
 mod holed;
