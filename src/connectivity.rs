@@ -42,11 +42,16 @@ pub struct Connectivity<const D: usize> {
 
 impl<const D: usize> Connectivity<D> {
     pub fn of(scene: &Scene<D>) -> Self {
+        Self::on(scene, scene.grid(0))
+    }
+
+    /// The same where the nodes are known, without halo.
+    pub(crate) fn on(scene: &Scene<D>, grid: Grid<D>) -> Self {
         let notches = with_images(scene, scene.notches.clone(), Notch::mirrored, Notch::moved);
         let size = scene.size();
         let size = [0, 1].map(|axis| size.get(axis).copied().unwrap_or(scene.spacing));
         let obstacles = Obstacles::new(notches, scene.voids(), size, scene.spacing);
-        Self { grid: scene.grid(0), edges: scene.edges, obstacles }
+        Self { grid, edges: scene.edges, obstacles }
     }
 
     /// Whether the bond from a node of the body to its neighbour at `offset` exists.

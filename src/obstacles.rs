@@ -108,10 +108,8 @@ impl Obstacle {
     /// The corners of its box.
     fn bounds(&self) -> [[f64; 2]; 2] {
         match self {
-            Self::Notch(Notch { from, to }) => {
-                [[0, 1].map(|axis| from[axis].min(to[axis])), [0, 1].map(|axis| from[axis].max(to[axis]))]
-            }
-            Self::Hole(hole) => [hole.centre.map(|x| x - hole.radius), hole.centre.map(|x| x + hole.radius)],
+            Self::Notch(notch) => notch.bounds(),
+            Self::Hole(hole) => hole.bounds(),
         }
     }
 

@@ -94,7 +94,8 @@ pub enum Command {
     },
     /// How fast bodies are marched, beside what the machine can do: the whole suite, or one plate
     Bench(BenchOptions),
-    /// What accuracy costs: the shipped studies, or the files given; with --advise the cheapest settings for an error
+    /// What accuracy costs: the shipped studies, or the files given; the cheapest settings for an error (--advise), or the spacing of a
+    /// scene of your own (--error, --budget)
     Cost(CostOptions),
     /// The JSON schema of study files
     Schema,
@@ -166,19 +167,30 @@ pub struct BenchOptions {
     pub no_progress: bool,
 }
 
+/// What only studies have, not searches.
+const OF_STUDIES: [&str; 5] = ["profile", "set", "isa", "strict", "quiet"];
+
 /// Options of `cost`.
 #[derive(Debug, Clone, Args)]
 pub struct CostOptions {
-    /// Study files; none means the shipped studies
+    /// Study files; none means the shipped studies. With --error or --budget one of kind "scene": the coarsest spacing that is as
+    /// accurate, or the finest that is as quick, is found and marched
     pub files: Vec<PathBuf>,
     /// Search kernels, m, volume rules and calibrations of plates; the answer goes to advice/
-    #[arg(long, requires_all = ["error", "wavelength"], conflicts_with_all = ["files", "profile", "set"])]
+    #[arg(long, conflicts_with_all = ["files", "budget", "case"], requires_all = ["error", "wavelength"])]
     pub advise: bool,
-    /// Largest phase error, worst over directions and both branches: 0.01 is one per cent
-    #[arg(long, value_name = "E", requires = "advise", allow_negative_numbers = true)]
+    /// Largest phase error, worst over directions and both branches; of a scene the largest of what its probes see, root mean
+    /// square over time over the largest size: 0.01 is one per cent
+    #[arg(long, value_name = "E", conflicts_with_all = OF_STUDIES, allow_negative_numbers = true)]
     pub error: Option<f64>,
+    /// Seconds that the scene may take
+    #[arg(long, value_name = "SECONDS", conflicts_with = "error", conflicts_with_all = OF_STUDIES, allow_negative_numbers = true)]
+    pub budget: Option<f64>,
+    /// Which case of the scene study, if it has several
+    #[arg(long, value_name = "ID")]
+    pub case: Option<String>,
     /// Length of the shortest waves that matter, in m
-    #[arg(long, value_name = "L", requires = "advise", allow_negative_numbers = true)]
+    #[arg(long, value_name = "L", conflicts_with_all = ["files", "budget"], allow_negative_numbers = true)]
     pub wavelength: Option<f64>,
     /// Settings of at least this m only
     #[arg(
@@ -190,13 +202,13 @@ pub struct CostOptions {
     )]
     pub min_m: Option<f64>,
     /// Settings of this horizon only, in m
-    #[arg(long, value_name = "H", requires = "advise", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", conflicts_with_all = ["files", "budget"], allow_negative_numbers = true)]
     pub horizon: Option<f64>,
     /// Dilatational speed of the plate in m/s; that of steel in plane stress if not given
-    #[arg(long, value_name = "C", requires = "advise", allow_negative_numbers = true)]
+    #[arg(long, value_name = "C", conflicts_with_all = ["files", "budget"], allow_negative_numbers = true)]
     pub speed: Option<f64>,
-    /// Machine-readable advice
-    #[arg(long, requires = "advise")]
+    /// Machine-readable, of --advise and of a scene
+    #[arg(long)]
     pub json: bool,
     #[command(flatten)]
     pub run: RunOptions,

@@ -74,6 +74,7 @@ pub struct Study {
     pub title: String,
     pub about: String,
     pub source: String,
+    pub material: Option<Material>,
     pub document: Document,
     pub cases: Vec<Case>,
 }
@@ -101,7 +102,7 @@ impl Study {
         let cases = read_cases(&document, &header, material, ratio)?;
         let Header { id, kind, title, about, source, .. } = header;
         let (about, source) = (about.unwrap_or_default(), source.unwrap_or_default());
-        Ok(Self { id, kind, title, about, source, document, cases })
+        Ok(Self { id, kind, title, about, source, material, document, cases })
     }
 
     /// The work of all cases that `profile` runs.

@@ -72,6 +72,10 @@ impl<const D: usize> Effect<D> for HeldFrame<D> {
         let history = History::Step { start: 0.0 };
         Ok(Acts::Constraint(Box::new(Driven::new(driven, history))))
     }
+
+    fn neutral(&self, _until: f64) -> Option<&'static str> {
+        (self.layers == 0).then_some("it holds no node")
+    }
 }
 
 /// A motion as it acts.

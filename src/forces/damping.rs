@@ -26,6 +26,10 @@ impl<const D: usize> Effect<D> for Damping {
     fn act(&self, setting: &Setting<'_, D>) -> Result<Acts<D>, Wrong> {
         Ok(Acts::Force(Box::new(Damper::new(setting.grid, setting.density, self.rate_per_s.0))))
     }
+
+    fn neutral(&self, _until: f64) -> Option<&'static str> {
+        (self.rate_per_s.0 == 0.0).then_some("its rate is 0")
+    }
 }
 
 /// Damping as it acts.

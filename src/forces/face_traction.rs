@@ -46,6 +46,15 @@ impl<const D: usize> Effect<D> for FaceTraction {
         let faces = Faces::of(setting.grid, self.notch(setting.notches)?)?;
         Ok(Acts::Force(Box::new(FaceLoad::new(setting.grid, &faces, self.normal_pa, self.shear_pa, history))))
     }
+
+    fn neutral(&self, until: f64) -> Option<&'static str> {
+        let nothing = [self.normal_pa, self.shear_pa].into_iter().flatten().all(|stress| stress == 0.0);
+        nothing.then_some("its stresses are 0").or_else(|| self.history.neutral(until))
+    }
+
+    fn on_notch(&self) -> Option<usize> {
+        Some(self.notch.unwrap_or(0))
+    }
 }
 
 impl FaceTraction {

@@ -47,6 +47,10 @@ impl<const D: usize> Effect<D> for BodyForce {
         let load = Load::new(setting.grid, "body force", axis, self.density_n_m3, &nodes, history);
         Ok(Acts::Force(Box::new(load)))
     }
+
+    fn neutral(&self, until: f64) -> Option<&'static str> {
+        (self.density_n_m3 == 0.0).then_some("its density is 0").or_else(|| self.history.neutral(until))
+    }
 }
 
 impl<const D: usize> Effect<D> for Traction {
@@ -77,6 +81,10 @@ impl<const D: usize> Effect<D> for Traction {
         let axis = self.axis.index::<D>()?;
         Ok(Acts::Force(Box::new(Load::new(setting.grid, "traction", axis, density, &nodes, history))))
     }
+
+    fn neutral(&self, until: f64) -> Option<&'static str> {
+        (self.stress_pa == 0.0).then_some("its stress is 0").or_else(|| self.history.neutral(until))
+    }
 }
 
 pub(super) fn finite(key: &str, value: f64) -> Result<(), Wrong> {
@@ -100,6 +108,12 @@ impl<const D: usize> Effect<D> for ForceField<D> {
 
     fn act(&self, setting: &Setting<'_, D>) -> Result<Acts<D>, Wrong> {
         Ok(Acts::Force(Box::new(FieldLoad::new(setting.grid, &self.fields, self.history.clone()))))
+    }
+
+    fn neutral(&self, until: f64) -> Option<&'static str> {
+        let nothing = self.fields.iter().all(|field| field.neutral().is_some());
+        let late = self.history.nothing_until(until);
+        nothing.then_some("its fields are 0").or(late.then_some("its history is 0 throughout"))
     }
 }
 

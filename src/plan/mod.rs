@@ -1,5 +1,6 @@
 //! How a scene is served and what it costs, decided before anything is computed: effects, operator, Δt, work.
 
+mod avoidable;
 mod checks;
 mod counts;
 mod running;
@@ -7,6 +8,7 @@ mod step;
 pub mod time;
 pub mod work;
 
+pub use avoidable::Avoidable;
 pub use step::stable_time_step;
 
 use crate::constraints::Edge;
@@ -26,6 +28,8 @@ pub struct Plan {
     pub name: String,
     pub effects_on: Vec<String>,
     pub effects_off: Vec<String>,
+    /// Those that are on and change no bit of the march.
+    pub avoidable: Vec<Avoidable>,
     pub operator: String,
     pub nodes: u64,
     /// Nodes served by a list of bonds beside the operator: near corrected edges their weights are their own.
@@ -95,12 +99,15 @@ impl Plan {
         let counts = Counts::of(scene, &stencil, &grid);
         checks::bonded(scene, &counts)?;
         let (time_step, over_limit, steps) = steps(&stencil, counts.largest_factor)?;
+        // A snapshot of the end tries one step more. What is at rest knows no time.
+        let until = if steps == 0 { f64::INFINITY } else { (steps + 1) as f64 * time_step };
         let nodes = grid.count() as u64;
         let (effects_on, effects_off) = effects(scene);
         Ok(Self {
             name: scene.name.clone(),
             effects_on,
             effects_off,
+            avoidable: avoidable::of(scene, &stencil, counts.band, until),
             operator: operator(scene, counts.band, nodes),
             nodes,
             band_nodes: counts.band,

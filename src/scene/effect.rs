@@ -47,4 +47,15 @@ pub trait Effect<const D: usize>: fmt::Debug + Send + Sync {
 
     /// The term of the model, or what is wrong with it on this body.
     fn act(&self, setting: &Setting<'_, D>) -> Result<Acts<D>, Wrong>;
+
+    /// Why it changes no bit of any march that ends before `until`, in s; `None` where it may. Said of what is nothing,
+    /// never of what is small.
+    fn neutral(&self, _until: f64) -> Option<&'static str> {
+        None
+    }
+
+    /// Which of the scene's notches it acts on, from 0.
+    fn on_notch(&self) -> Option<usize> {
+        None
+    }
 }

@@ -36,6 +36,23 @@ impl History {
 }
 
 impl History {
+    /// Whether it is exactly 0 at every time from 0 to `until`, in s.
+    pub fn nothing_until(&self, until: f64) -> bool {
+        match *self {
+            Self::Step { start } => start > until,
+            Self::Ramp { start, .. } | Self::RaisedCosine { start, .. } | Self::Sine { start, .. } => {
+                start >= until
+            }
+            Self::Table { ref points } => {
+                // From the last point before the time to the first behind it.
+                let from = points.partition_point(|&(time, _)| time <= 0.0).saturating_sub(1);
+                let to =
+                    points.partition_point(|&(time, _)| time < until).min(points.len().saturating_sub(1));
+                points.get(from..=to).is_some_and(|seen| seen.iter().all(|&(_, value)| value == 0.0))
+            }
+        }
+    }
+
     /// The factor that acts over the step of length Δt around t: a jump that falls into it acts for its part. What is
     /// there from t = 0 on is there in whole, as the march starts with half a step.
     pub fn over_step(&self, t: f64, time_step: f64) -> f64 {
@@ -91,6 +108,12 @@ impl HistoryAsked {
     pub fn step() -> Self {
         let shape = HistoryShape::Step;
         Self { shape, start_s: None, rise_s: None, period_s: None, times_s: None, values: None }
+    }
+
+    /// Why what it multiplies does nothing before `until`, in s.
+    pub(crate) fn neutral(&self, until: f64) -> Option<&'static str> {
+        let nothing = self.check().is_ok_and(|history| history.nothing_until(until));
+        nothing.then_some("its history is 0 throughout")
     }
 
     pub fn check(&self) -> Result<History, Wrong> {
@@ -165,6 +188,32 @@ mod tests {
             [-1.0, 0.0, 1.0, 2.0, 2.5, 3.0, 8.0].map(|t| table.at(t)),
             [1.0, 1.0, 2.0, 3.0, 1.5, 0.0, 0.0]
         );
+    }
+
+    #[test]
+    fn nothing_is_said_of_histories_that_are_zero_throughout() {
+        let table = |values: [f64; 4]| History::Table {
+            points: [-1.0, 1.0, 3.0, 5.0].into_iter().zip(values).collect(),
+        };
+        for (history, until, nothing) in [
+            (History::Step { start: 2.0 }, 2.0, false),
+            (History::Step { start: 2.1 }, 2.0, true),
+            (History::Ramp { start: 2.0, rise: 1.0 }, 2.0, true),
+            (History::RaisedCosine { start: 1.9, rise: 1.0 }, 2.0, false),
+            (History::Sine { start: 2.0, period: 1.0 }, 2.0, true),
+            (History::Sine { start: 0.0, period: 1.0 }, 2.0, false),
+            (History::Ramp { start: 2.0, rise: 1.0 }, f64::INFINITY, false),
+            (table([0.0; 4]), f64::INFINITY, true),
+            (table([0.0, 0.0, 0.0, 1e-300]), 3.0, true),
+            (table([0.0, 0.0, 0.0, 1e-300]), 3.1, false),
+            (table([1.0, 0.0, 0.0, 0.0]), 3.0, false),
+            (table([0.0, 0.0, 0.0, 1.0]), 9.0, false),
+        ] {
+            assert_eq!(history.nothing_until(until), nothing, "{history:?} until {until}");
+            // What is said to be nothing is 0 at every time looked at, the last included.
+            let times = (0..=100).map(|n| f64::from(n) / 100.0 * until.min(9.0));
+            assert!(!nothing || times.into_iter().all(|t| history.at(t) == 0.0), "{history:?}");
+        }
     }
 
     #[test]

@@ -54,6 +54,11 @@ impl HoleAsked {
 }
 
 impl Hole {
+    /// The corners of its box, in m.
+    pub(crate) fn bounds(&self) -> [[f64; 2]; 2] {
+        [self.centre.map(|x| x - self.radius), self.centre.map(|x| x + self.radius)]
+    }
+
     /// Whether a node at this place is removed.
     pub fn holds(&self, x: [f64; 2], spacing: f64) -> bool {
         // Squares: this is asked of every bond.

@@ -56,6 +56,11 @@ impl<const D: usize> Initial<D> {
         };
         self.amplitude * shape
     }
+
+    /// Why it is nothing; `None` where it may be something.
+    pub fn neutral(&self) -> Option<&'static str> {
+        (self.amplitude == 0.0).then_some("its amplitude is 0")
+    }
 }
 
 /// The words for a [`Shape`].

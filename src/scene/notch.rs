@@ -59,6 +59,12 @@ impl Notch {
         libm::hypot(self.to[0] - self.from[0], self.to[1] - self.from[1])
     }
 
+    /// The corners of its box, in m.
+    pub(crate) fn bounds(&self) -> [[f64; 2]; 2] {
+        let Self { from, to } = self;
+        [[0, 1].map(|axis| from[axis].min(to[axis])), [0, 1].map(|axis| from[axis].max(to[axis]))]
+    }
+
     /// Whether it cuts the bond from a to b, in m.
     pub fn cuts(&self, a: [f64; 2], b: [f64; 2], spacing: f64) -> bool {
         let (slack, length) = (SLACK * spacing, self.length());

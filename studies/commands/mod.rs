@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod cost;
+pub mod cost_scene;
 pub mod explain;
 mod find;
 mod folder;

@@ -222,6 +222,7 @@ mod tests {
                 name: "m = 3".into(),
                 effects_on: vec!["bond forces".into()],
                 effects_off: vec!["damage".into()],
+                avoidable: Vec::new(),
                 operator: "half families".into(),
                 nodes: 1000,
                 band_nodes: 0,

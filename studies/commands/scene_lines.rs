@@ -26,7 +26,7 @@ enum Line<'a> {
 /// Writes case after case, and remembers which effects it has told last.
 #[derive(Default)]
 pub struct SceneLines<'c> {
-    told: Option<[Vec<String>; 2]>,
+    told: Option<[Vec<String>; 3]>,
     costs: Option<&'c Costs>,
 }
 
@@ -76,8 +76,13 @@ impl<'c> SceneLines<'c> {
     }
 
     fn heading<'a>(&mut self, scene: &Planned) -> Vec<Line<'a>> {
-        let effects = [scene.effects_on.clone(), scene.effects_off.clone()];
-        let texts = if self.told.as_ref() == Some(&effects) {
+        let avoidable: Vec<String> = scene
+            .avoidable
+            .iter()
+            .map(|one| format!("{} ({}: {})", one.key, one.effect, one.because))
+            .collect();
+        let effects = [scene.effects_on.clone(), scene.effects_off.clone(), avoidable];
+        let mut texts = if self.told.as_ref() == Some(&effects) {
             vec!["effects as above".to_owned()]
         } else {
             vec![
@@ -85,6 +90,9 @@ impl<'c> SceneLines<'c> {
                 format!("effects off: {}", listed(&scene.effects_off)),
             ]
         };
+        if texts.len() > 1 && !effects[2].is_empty() {
+            texts.push(format!("avoidable:   {} — without it no bit would change", effects[2].join("; ")));
+        }
         self.told = Some(effects);
         let mut lines = Vec::new();
         for text in texts.into_iter().chain([format!("operator:    {}", scene.operator)]) {
@@ -168,6 +176,7 @@ fn alike(scenes: &[Planned]) -> Vec<Alike<'_>> {
         let same = |group: &&mut Alike| {
             group.first.effects_on == scene.effects_on
                 && group.first.effects_off == scene.effects_off
+                && group.first.avoidable == scene.avoidable
                 && group.first.operator == scene.operator
         };
         match groups.iter_mut().find(same) {
@@ -185,6 +194,7 @@ fn listed(effects: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pd_verify::plan::Avoidable;
     use pd_verify::plan::work::Work;
 
     fn scene(number: usize, operator: &str) -> Planned {
@@ -192,6 +202,7 @@ mod tests {
             name: format!("m = {number}"),
             effects_on: vec!["bond forces".into()],
             effects_off: vec!["damage".into(), "contact".into()],
+            avoidable: Vec::new(),
             operator: operator.into(),
             nodes: 1000,
             band_nodes: 0,
@@ -251,6 +262,19 @@ mod tests {
         assert_eq!(row[3..], ["1000", "3000", "56.0", "at", "rest", "-", "-", "-", "-"], "{text}");
         let widths: Vec<usize> = text.lines().skip(3).map(|line| line.chars().count()).collect();
         assert!(widths.windows(2).all(|pair| pair[0] == pair[1]), "{text}");
+    }
+
+    #[test]
+    fn what_could_be_left_out_is_told_with_its_reason() {
+        let idle = Avoidable {
+            key: "effect[1]".into(),
+            effect: "traction".into(),
+            because: "its stress is 0".into(),
+        };
+        let busy = Planned { avoidable: vec![idle], ..scene(2, "half") };
+        let text = SceneLines::default().of_case(&[scene(1, "half"), busy]);
+        assert!(text.contains("avoidable:   effect[1] (traction: its stress is 0)"), "{text}");
+        assert_eq!((text.matches("avoidable").count(), text.matches("effects on").count()), (1, 2), "{text}");
     }
 
     #[test]

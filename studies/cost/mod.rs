@@ -1,10 +1,16 @@
 //! `pd-verify cost`: what accuracy costs in work and in time, by method, kernel, m and time step.
 
+pub mod ablation;
+mod ablation_bodies;
+mod ablation_report;
+#[cfg(test)]
+mod ablation_tests;
 pub mod advice;
 mod answers;
 pub mod crack;
 pub mod figure;
 pub mod jump;
+pub mod own;
 mod problem;
 mod runs;
 mod settings;

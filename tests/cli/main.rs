@@ -1,8 +1,10 @@
 //! The program as its users meet it: exit codes, messages, and the files it writes or leaves alone.
 
+mod avoidable;
 mod bench;
 mod commands;
 mod cost;
+mod cost_scene;
 mod cracks;
 #[cfg(unix)]
 mod faults;

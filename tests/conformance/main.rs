@@ -11,6 +11,7 @@ mod face_loads;
 mod fields;
 mod holed;
 mod motion;
+mod neutral;
 mod notched;
 mod passes;
 mod patches;
