@@ -4,6 +4,7 @@ mod bench;
 mod commands;
 mod cost;
 mod cracks;
+mod diverged;
 #[cfg(unix)]
 mod holed;
 mod interruption;
