@@ -7,8 +7,8 @@
 use crate::breaking::Broken;
 use crate::field::Window;
 use crate::forces::{Class, Now};
-use crate::march::initial;
-use crate::model::Model;
+use crate::march::{March, initial};
+use crate::model::{Inertia, Model};
 use crate::scene::{Scene, Wrong};
 use thiserror::Error;
 
@@ -56,6 +56,21 @@ const LOOKS: usize = 10;
 /// Of the residual; rounding leaves some 1e-15.
 const TOLERANCE: f64 = 1e-12;
 
+/// How far a mode is sought: iterations at most, and what is left of the residual.
+#[derive(Debug, Clone, Copy)]
+struct Effort {
+    most: usize,
+    tolerance: f64,
+}
+
+/// Of a motion four digits are enough to say what step it bears, and differences of forces have no more than nine.
+const ROUGHLY: f64 = 1e-6;
+/// Iterations for these, and numbers that all vectors together may hold.
+const FEW: usize = 300;
+const HELD: usize = 20_000_000;
+/// Of a spacing: the displacements by which a body of finite rotations is asked how stiff it is.
+const NUDGE: f64 = 1e-6;
+
 /// The fastest mode that the scene's displacement at t = 0 contains. Among modes of one frequency it is the part of them that
 /// the start contains, so that a march from there grows in it. Loads do not act; driven nodes are held.
 pub fn fastest<const D: usize>(scene: &Scene<D>) -> Result<Fastest<D>, NoMode> {
@@ -63,34 +78,51 @@ pub fn fastest<const D: usize>(scene: &Scene<D>) -> Result<Fastest<D>, NoMode> {
     if !model.linear {
         return Err(NoMode::NotLinear);
     }
-    let body = Packed::new(&model, scene.material.density);
-    let mut start = body.pack(&initial(&model.grid, &scene.displacement, 1.0));
-    let length = norm(&start);
-    if !(length > 0.0 && length.is_finite()) {
-        return Err(NoMode::NoStart);
-    }
-    start.iter_mut().for_each(|x| *x /= length);
-    lanczos(&body, start)
+    let body = Packed::new(&model, Broken::none(), None);
+    let start = initial(&model.grid, &scene.displacement, 1.0);
+    lanczos(&body, body.pack(&start), Effort { most: MOST, tolerance: TOLERANCE })
+}
+
+/// The fastest mode that the step done last contains, to some digits, with the bonds that are there now; of a body with
+/// finite rotations about the displacement `at`.
+pub fn fastest_of_motion<const D: usize>(march: &March<'_, D>, at: &[f64]) -> Result<Fastest<D>, NoMode> {
+    let model = march.model();
+    let body = Packed::new(model, march.broken(), (!model.linear).then_some(at));
+    let size = march.increment().iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+    let start: Vec<f64> = body.pack(march.increment()).iter().map(|d| d / size).collect();
+    let most = FEW.min(HELD / start.len().max(1));
+    lanczos(&body, start, Effort { most, tolerance: ROUGHLY })
 }
 
 /// A body's components as one vector, and what its forces do to it.
 struct Packed<'m, const D: usize> {
     model: &'m Model<D>,
     density: f64,
+    broken: &'m Broken,
+    /// About which it moves, where it is not linear.
+    at: Option<&'m [f64]>,
     /// Of all free components, node by node, and of those that are driven.
     places: Vec<usize>,
     held: Vec<bool>,
 }
 
 impl<'m, const D: usize> Packed<'m, D> {
-    fn new(model: &'m Model<D>, density: f64) -> Self {
+    fn new(model: &'m Model<D>, broken: &'m Broken, at: Option<&'m [f64]>) -> Self {
         let grid = &model.grid;
         let of = |node| (0..D).map(move |axis| grid.place(node) + axis * grid.stride());
         let places: Vec<usize> = grid.each().flat_map(of).collect();
-        let driven: Vec<usize> =
+        let mut driven: Vec<usize> =
             model.constraints.iter().flat_map(|constraint| constraint.places()).copied().collect();
-        let held = places.iter().map(|place| driven.contains(place)).collect();
-        Self { model, density, places, held }
+        driven.sort_unstable();
+        let held = places.iter().map(|place| driven.binary_search(place).is_ok()).collect();
+        let density = match &model.inertia {
+            Inertia::Uniform(density) => *density,
+            // Of no scene's body; with the smallest density the mode is no slower than it is.
+            Inertia::Diagonal(densities) => {
+                places.iter().map(|&place| densities[place]).fold(f64::INFINITY, f64::min)
+            }
+        };
+        Self { model, density, broken, at, places, held }
     }
 
     /// Values at the places, zero where they are held.
@@ -99,28 +131,50 @@ impl<'m, const D: usize> Packed<'m, D> {
         at.map(|(&place, &held)| if held { 0.0 } else { field[place] }).collect()
     }
 
-    /// Kv/ρ.
+    /// Kv/ρ, or where the body is not linear its difference quotient.
     fn times(&self, vector: &[f64]) -> Vec<f64> {
+        let Some(at) = self.at else { return self.pull(None, vector, 1.0) };
+        let nudge =
+            NUDGE * self.model.grid.spacing / vector.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let [ahead, behind] = [nudge, -nudge].map(|by| self.pull(Some(at), vector, by));
+        ahead.iter().zip(behind).map(|(ahead, behind)| (ahead - behind) / (2.0 * nudge)).collect()
+    }
+
+    /// −F/ρ at a displacement, moved by a vector.
+    fn pull(&self, from: Option<&[f64]>, vector: &[f64], by: f64) -> Vec<f64> {
         let (mut displacement, mut force) = (self.model.grid.field(), self.model.grid.field());
-        self.places.iter().zip(vector).for_each(|(&place, &x)| displacement[place] = x);
+        if let Some(from) = from {
+            displacement.copy_from_slice(from);
+        }
+        self.places.iter().zip(vector).for_each(|(&place, &x)| displacement[place] += by * x);
         self.model.fill_ghosts(&mut displacement);
         let now = Now {
             displacement: Window::from(&displacement),
             increment: Window::NONE,
             time: 0.0,
             time_step: f64::NAN,
-            broken: Broken::none(),
+            broken: self.broken,
         };
         self.model.add_forces(self.model.of_class(Class::Internal), &now, &mut force);
-        let mut image = self.pack(&force);
-        image.iter_mut().for_each(|x| *x /= -self.density);
-        image
+        self.pack(&force).iter().map(|f| f / -self.density).collect()
     }
 }
 
 /// The largest eigenvalue and its vector; every vector is made orthogonal to all before it, twice.
-fn lanczos<const D: usize>(body: &Packed<'_, D>, start: Vec<f64>) -> Result<Fastest<D>, NoMode> {
-    let most = start.len().min(MOST);
+fn lanczos<const D: usize>(
+    body: &Packed<'_, D>,
+    mut start: Vec<f64>,
+    effort: Effort,
+) -> Result<Fastest<D>, NoMode> {
+    let length = norm(&start);
+    if !(length > 0.0 && length.is_finite()) {
+        return Err(NoMode::NoStart);
+    }
+    start.iter_mut().for_each(|x| *x /= length);
+    let most = start.len().min(effort.most);
+    if most == 0 {
+        return Err(NoMode::NotConverged { iterations: 0, residual: f64::NAN });
+    }
     let (mut basis, mut diagonal, mut beside) = (vec![start], Vec::new(), Vec::new());
     loop {
         let last = &basis[basis.len() - 1];
@@ -137,7 +191,7 @@ fn lanczos<const D: usize>(body: &Packed<'_, D>, start: Vec<f64>) -> Result<Fast
             let square = eigenvalue(&diagonal, &beside, 1);
             let weights = vector(&diagonal, &beside, square);
             let residual = length * weights[iterations - 1].abs() / square;
-            if residual <= TOLERANCE {
+            if residual <= effort.tolerance {
                 let next_square = eigenvalue(&diagonal, &beside, 2);
                 return Ok(combined(&basis, &weights, [square, next_square], residual));
             }

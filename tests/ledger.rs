@@ -25,7 +25,8 @@ use pd_verify::partial_volume::VolumeRule;
 use pd_verify::plan::Plan;
 use pd_verify::record;
 use pd_verify::scene::{
-    Effect, Hole, Initial, Notch, Operator, Probe, Rotations, Running, Scene, Shape, StepRule, Time, Watch,
+    Beyond, Effect, Hole, Initial, Notch, Operator, Probe, Rotations, Running, Scene, Shape, StepRule, Time,
+    Watch,
 };
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -217,7 +218,7 @@ fn the_ledger_of_finite_rotations_closes_to_second_order() {
     };
     let time = |steps: f64| Time {
         duration: 4e-5,
-        step: StepRule::Given { seconds: 4e-5 / steps, beyond_limit: false },
+        step: StepRule::Given { seconds: 4e-5 / steps, beyond_limit: Beyond::Refused },
     };
     let effects: [Vec<Arc<dyn Effect<2>>>; 2] =
         [loads::<2>(&ramp), [loads::<2>(&ramp), vec![damp::<2>()]].concat()];

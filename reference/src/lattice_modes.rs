@@ -51,6 +51,48 @@ impl LatticeModes {
         Some(bar)
     }
 
+    /// Where the bar would rest under a load of `load(j)` E/Δx² per volume on node j, as the start of a motion without it:
+    /// put on at t = 0 and kept, the load moves the bar from rest to these displacements at t = 0 less those at t. As
+    /// [`Self::of_displacement`] otherwise.
+    pub fn of_steady_load(
+        of: Lattice,
+        nodes: usize,
+        courant: Option<f64>,
+        load: impl Fn(usize) -> f64,
+    ) -> Option<Self> {
+        Some(Self::of_displacement(of, nodes, courant, load)?.scaled(of, |square| 1.0 / square))
+    }
+
+    /// Half of how far a load may drive the bar that changes its sign with every step, `load(j)` E/Δx² on node j in steps of
+    /// even number: each mode by a = −C²f/(4 − C²ω²), C = `courant`, ω that of exact time. With m(n) the motion that starts
+    /// from there, the load moves the bar from rest to (−1)ⁿ m(0) − m(n): put into leapfrog, the first term takes the load, and both
+    /// leave rest with half a step's acceleration. As [`Self::of_displacement`] otherwise.
+    pub fn of_alternating_load(
+        of: Lattice,
+        nodes: usize,
+        courant: f64,
+        load: impl Fn(usize) -> f64,
+    ) -> Option<Self> {
+        let bar = Self::of_displacement(of, nodes, Some(courant), load)?;
+        let square = courant * courant;
+        Some(bar.scaled(of, |omega_square| -square / (4.0 - square * omega_square)))
+    }
+
+    /// Every amplitude times a function of ω², over (v/Δx)², of its mode in exact time.
+    fn scaled(mut self, of: Lattice, factor: impl Fn(f64) -> f64) -> Self {
+        let nodes = self.amplitudes.len();
+        for (n, amplitude) in self.amplitudes.iter_mut().enumerate() {
+            let omega = lattice::bar(of, (2 * n + 1) as f64 * PI / (2 * nodes) as f64).omega;
+            *amplitude *= factor(omega * omega);
+        }
+        self
+    }
+
+    /// Σ|a_n|: what no displacement ever exceeds.
+    pub fn most(&self) -> f64 {
+        self.amplitudes.iter().map(|a| a.abs()).sum()
+    }
+
     /// Displacement of node j = 0 … N−1 at `time` = vt/Δx.
     pub fn displacement(&self, j: usize, time: f64) -> f64 {
         self.at(&self.displacement_shape(j), time)

@@ -28,6 +28,7 @@ pub mod continuum;
 pub mod crack_static;
 pub mod cracked_plate;
 pub mod cracked_rectangle;
+pub mod cut_plate;
 pub mod double_double;
 pub mod elastic;
 pub mod finite_differences;

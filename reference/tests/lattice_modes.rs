@@ -97,3 +97,55 @@ fn pulses_converge_to_dalembert_at_second_order() {
         assert!((order - 2.0).abs() < 0.1, "{order}: {coarse:e} and {fine:e}");
     }
 }
+
+/// Steps of central differences from rest under a load whose factor depends on the step, the bar and its ends as above.
+fn driven(load: &[f64], courant: f64, steps: usize, factor: fn(usize) -> f64) -> Vec<f64> {
+    let nodes = load.len() as i64;
+    let at = |u: &[f64], j: i64| match j {
+        j if j < 0 => -u[(-1 - j) as usize],
+        j if j >= nodes => u[(2 * nodes - 1 - j) as usize],
+        j => u[j as usize],
+    };
+    let force = |u: &[f64], i: i64, step: usize| -> f64 {
+        let bonds = (1..=3).map(|r| 2.0 / (9.0 * r as f64) * (at(u, i - r) + at(u, i + r) - 2.0 * at(u, i)));
+        bonds.sum::<f64>() + factor(step) * load[i as usize]
+    };
+    let mut now = vec![0.0; load.len()];
+    let mut before: Vec<f64> = (0..nodes).map(|i| force(&now, i, 0) * 0.5 * courant * courant).collect();
+    for step in 0..steps {
+        let next =
+            |i: i64| 2.0 * now[i as usize] - before[i as usize] + courant * courant * force(&now, i, step);
+        let next = (0..nodes).map(next).collect();
+        before = std::mem::replace(&mut now, next);
+    }
+    now
+}
+
+#[test]
+fn loads_put_on_at_once_and_of_alternating_sign_move_a_bar_as_a_march_written_out() {
+    let (nodes, courant) = (40, 0.7);
+    let load: Vec<f64> = (0..nodes).map(|j| if j > 33 { 1.0 } else { 0.1 * ((j * j) % 5) as f64 }).collect();
+    let steady = LatticeModes::of_steady_load(CONSTANT, nodes, Some(courant), |j| load[j]).expect("stable");
+    let alternating =
+        LatticeModes::of_alternating_load(CONSTANT, nodes, courant, |j| load[j]).expect("stable");
+    for steps in [0, 1, 2, 33, 400] {
+        let time = steps as f64 * courant;
+        let sign = if steps % 2 == 0 { 1.0 } else { -1.0 };
+        let of = |modes: &LatticeModes, sign: f64| -> Vec<f64> {
+            let pairs = modes.displacements(0.0).into_iter().zip(modes.displacements(time));
+            pairs.map(|(start, now)| sign * start - now).collect()
+        };
+        let switch = |step: usize| if step.is_multiple_of(2) { 1.0 } else { -1.0 };
+        for (found, expected) in [
+            (of(&steady, 1.0), driven(&load, courant, steps, |_| 1.0)),
+            (of(&alternating, sign), driven(&load, courant, steps, switch)),
+        ] {
+            assert!(found.iter().all(|u| u.abs() <= 2.0 * steady.most().max(alternating.most())));
+            let most = expected.iter().fold(1e-3_f64, |most, u| most.max(u.abs()));
+            for (found, expected) in found.iter().zip(&expected) {
+                // Roundings of the march, 1e-16 a step, and of frequencies over the time.
+                assert!((found - expected).abs() < 1e-11 * most, "{steps}: {found} {expected}");
+            }
+        }
+    }
+}

@@ -7,9 +7,12 @@
 //! Between two looks at a body several steps are made in one pass over memory (`pass`, `schedule`); no bit depends on
 //! how many, nor on the number of threads.
 
+mod motion;
 mod pass;
 mod schedule;
 mod shared;
+
+pub use motion::Motion;
 
 use crate::breaking::{Broken, RunningNotches};
 use crate::constraints::Ghost;

@@ -2,7 +2,7 @@
 
 use crate::dispersion::timestep;
 use crate::lattice::Stencil;
-use crate::scene::{Scene, StepRule, Wrong};
+use crate::scene::{Beyond, Scene, StepRule, Wrong};
 
 /// A march of more steps takes weeks on the smallest body.
 const MAX_STEPS: u64 = 1_000_000_000_000;
@@ -44,7 +44,7 @@ pub fn time_step<const D: usize>(scene: &Scene<D>, limit: f64) -> Result<(f64, f
             let message = format!("a time step of {seconds} s does not advance");
             return Err(Wrong::new("time_step_s", message, "give a positive number of seconds"));
         }
-        StepRule::Given { seconds, beyond_limit: false } if seconds > limit => {
+        StepRule::Given { seconds, beyond_limit: Beyond::Refused } if seconds > limit => {
             let message = format!(
                 "Δt = {seconds:e} s is above this lattice's limit of {limit:.4e} s: leapfrog would grow without bound"
             );

@@ -1,11 +1,15 @@
 //! A run from a scene to what was seen of it: plan, model, march to the next look, look.
 
+mod diverged;
 mod look;
 mod patch;
 mod snapshot;
+mod watching;
 
+pub use diverged::Diverged;
 pub use patch::Patch;
 pub use snapshot::Snapshot;
+pub use watching::LAST_SOUND;
 
 use crate::ledger::Ledger;
 use crate::march::March;
@@ -16,6 +20,7 @@ use look::{book, look, trace};
 pub(crate) use look::{corners, line};
 use snapshot::Due;
 use thiserror::Error;
+use watching::Watching;
 
 /// What was seen of a scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,15 +79,10 @@ pub enum Failure {
     /// The scene cannot be run.
     #[error("{}", .0.message)]
     Wrong(Wrong),
-    /// A displacement is no longer a number.
-    #[error(
-        "\"{scene}\" grew without bound: no longer finite at step {step}, t = {time:e} s, with Δt = {over_limit:.3} of the limit"
-    )]
-    Diverged { scene: String, step: u64, time: f64, over_limit: f64 },
+    /// It grows without bound, or a displacement is no longer a number.
+    #[error("{0}")]
+    Diverged(Box<Diverged>),
 }
-
-/// Steps between two looks at whether all is finite.
-const WATCHED: u64 = 1000;
 
 /// Runs a scene from beginning to end.
 pub fn run<const D: usize>(scene: &Scene<D>) -> Result<Record, Failure> {
@@ -99,6 +99,7 @@ pub fn march<const D: usize>(scene: &Scene<D>, plan: Plan, model: &Model<D>) -> 
     let mut traces: Vec<Trace> = scene.probes.iter().map(|probe| trace(probe, &model.grid)).collect();
     let mut due = Due::new(&scene.snapshots, plan.time_step_s, plan.steps);
     let mut snapshots = Vec::new();
+    let mut watching = Watching::new(scene);
     loop {
         let step = march.step();
         for (probe, trace) in scene.probes.iter().zip(&mut traces) {
@@ -111,7 +112,7 @@ pub fn march<const D: usize>(scene: &Scene<D>, plan: Plan, model: &Model<D>) -> 
             return Ok(Record { plan, traces, snapshots });
         }
         let looks = scene.probes.iter().map(|probe| (step / probe.every + 1) * probe.every);
-        let events = looks.chain(due.next()).chain([plan.steps, step + WATCHED]);
+        let events = looks.chain(due.next()).chain([plan.steps, watching.next(step)]);
         let next = events.min().unwrap_or(plan.steps).min(plan.steps);
         match &mut ledger {
             None => march.advance_to(next),
@@ -122,13 +123,9 @@ pub fn march<const D: usize>(scene: &Scene<D>, plan: Plan, model: &Model<D>) -> 
                 }
             }
         }
-        if !march.is_finite() {
-            return Err(Failure::Diverged {
-                scene: plan.name,
-                step: march.step(),
-                time: march.time(),
-                over_limit: plan.time_step_over_limit,
-            });
+        if watching.diverges(scene, &mut march, plan.steps) {
+            let diverged = watching.given_up(&march, Record { plan, traces, snapshots });
+            return Err(Failure::Diverged(Box::new(diverged)));
         }
     }
 }

@@ -50,13 +50,19 @@ impl<'s> Due<'s> {
     pub fn take<const D: usize>(&mut self, scene: &Scene<D>, march: &March<'_, D>) -> Vec<Snapshot> {
         let mut taken = Vec::new();
         while let Some((_, which, index)) = self.left.pop_if(|due| due.0 == march.step()) {
-            taken.push(snapshot(scene, march, &self.snapshots[which].name, index));
+            taken.push(self::taken(scene, march, &self.snapshots[which].name, index));
         }
         taken
     }
 }
 
-fn snapshot<const D: usize>(scene: &Scene<D>, march: &March<'_, D>, name: &str, index: usize) -> Snapshot {
+/// The body as it is now.
+pub(super) fn taken<const D: usize>(
+    scene: &Scene<D>,
+    march: &March<'_, D>,
+    name: &str,
+    index: usize,
+) -> Snapshot {
     let grid = &march.model().grid;
     let start = (march.step() == 0).then(|| initial(grid, &scene.velocity, 1.0));
     Snapshot {

@@ -27,7 +27,7 @@ pub use positive::Positive;
 pub use probe::{Probe, Watch};
 pub use running::{Running, RunsAsked};
 pub use snapshot::Snapshots;
-pub use time::{StepRule, Time};
+pub use time::{Beyond, StepRule, Time};
 pub use wrong::Wrong;
 
 use crate::constraints::Edges;

@@ -46,7 +46,7 @@ impl NotchAsked {
             }
         }
         let notch = Notch { from: self.from_m, to: self.to_m };
-        if notch.length() < spacing {
+        if notch.length() < (1.0 - SLACK) * spacing {
             let message = format!("a notch of {} m is shorter than a cell of {spacing} m", notch.length());
             return Err(Wrong::new("to_m", message, "let it pass between nodes, over a cell or more"));
         }

@@ -13,8 +13,19 @@ pub struct Time {
 pub enum StepRule {
     /// At most this fraction of the lattice's sharp limit; made a little smaller so that whole steps fill the duration.
     OfLimit(f64),
-    /// As given, in s; `beyond_limit` says that an unstable step is wanted.
-    Given { seconds: f64, beyond_limit: bool },
+    /// As given, in s, and what becomes of a step above the lattice's limit.
+    Given { seconds: f64, beyond_limit: Beyond },
+}
+
+/// What is done with a step above the lattice's limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Beyond {
+    /// The plan refuses it.
+    Refused,
+    /// It is marched until its growth shows that it diverges.
+    UntilItShows,
+    /// It is marched until its numbers are no longer finite: for those who study how it grows.
+    UntilItOverflows,
 }
 
 impl StepRule {

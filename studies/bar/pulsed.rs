@@ -7,7 +7,7 @@ use pd_verify::constraints::{Edge, Edges};
 use pd_verify::lattice::Lattice;
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::Plan;
-use pd_verify::scene::{Initial, Positive, Scene, Shape, StepRule, Time, Wrong};
+use pd_verify::scene::{Beyond, Initial, Positive, Scene, Shape, StepRule, Time, Wrong};
 use pd_verify_reference::pulse_bar::PulseBar;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -119,7 +119,7 @@ impl Pulsed {
         steps: u64,
         looks: u64,
     ) -> Result<Marched, Wrong> {
-        let step = StepRule::Given { seconds: duration / steps as f64, beyond_limit: false };
+        let step = StepRule::Given { seconds: duration / steps as f64, beyond_limit: Beyond::Refused };
         let mut scene = self.scene(lattice, spacing, duration, step)?;
         scene.probes = vec![whole_bar(steps / looks)];
         let plan = Plan::of(&scene)?;

@@ -15,7 +15,7 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
 use pd_verify::record::Record;
-use pd_verify::scene::{Positive, Probe, Scene, StepRule, Time, Watch, Wrong};
+use pd_verify::scene::{Beyond, Positive, Probe, Scene, StepRule, Time, Watch, Wrong};
 use pd_verify_reference as reference;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -75,7 +75,7 @@ impl Asked for SpectrumAsked {
     fn check(&self, written: &Written<'_>) -> Result<Spectrum, Wrong> {
         let bar = self.bar.check(written.material()?)?;
         let lattices = self.lattice.marched(Body::Bar, 2).map_err(|wrong| wrong.inside("lattice"))?;
-        let step = StepRule::Given { seconds: self.time_step_s.0, beyond_limit: false };
+        let step = StepRule::Given { seconds: self.time_step_s.0, beyond_limit: Beyond::Refused };
         let marching = Time { duration: self.duration_s.0, step };
         let look = |steps: u64| {
             let strain = Probe { name: STRAIN.into(), watch: Watch::Strain { at: self.probe_m.0 }, every: 1 };

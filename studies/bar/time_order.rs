@@ -13,7 +13,7 @@ use pd_verify::lattice::Lattice;
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
 use pd_verify::report::plot::{Axis, Figure, Guide, Lines, Marker, Series};
-use pd_verify::scene::{Positive, Scene, StepRule, Time, Wrong};
+use pd_verify::scene::{Beyond, Positive, Scene, StepRule, Time, Wrong};
 use pd_verify::table::{Cell, Table};
 use pd_verify::verdict::Evidence;
 use rayon::prelude::*;
@@ -64,7 +64,7 @@ impl Asked for TimeOrderAsked {
         let mut sequences = Vec::new();
         for (&lattice, name) in lattices.iter().zip(names(&lattices)) {
             let scene = |&seconds: &f64| {
-                let step = StepRule::Given { seconds, beyond_limit: false };
+                let step = StepRule::Given { seconds, beyond_limit: Beyond::Refused };
                 let marching = Time { duration: self.duration_s.0, step };
                 let scene = bar.scene(lattice, self.dx_m.0, marching, Vec::new())?;
                 planned(scene, |steps| vec![whole_bar((steps / 20).max(1))])

@@ -8,7 +8,7 @@ use crate::question::Effort;
 use pd_verify::material::Body;
 use pd_verify::plan::Plan;
 use pd_verify::record::Record;
-use pd_verify::scene::{Scene, StepRule, Wrong};
+use pd_verify::scene::{Beyond, Scene, StepRule, Wrong};
 use pd_verify_reference::medium::Medium;
 
 /// Name of the snapshot.
@@ -53,7 +53,8 @@ pub fn stepped<const D: usize>(
         let mut made = scene(level, StepRule::OfLimit(safety))?;
         let finer = coarsest.spacing / level.spacing;
         let steps = (coarse.steps as f64 * finer - 1e-9).ceil();
-        made.time.step = StepRule::Given { seconds: made.time.duration / steps, beyond_limit: false };
+        made.time.step =
+            StepRule::Given { seconds: made.time.duration / steps, beyond_limit: Beyond::Refused };
         let plan = match level.m == coarsest.m {
             true => Plan::below(&made, limit / finer)?,
             false => Plan::of(&made)?,

@@ -15,7 +15,7 @@ use pd_verify::material::Body;
 use pd_verify::model::Model;
 use pd_verify::plan::{Plan, stable_time_step};
 use pd_verify::record::Record;
-use pd_verify::scene::{Positive, Scene, StepRule, Time, Watch, Wrong};
+use pd_verify::scene::{Beyond, Positive, Scene, StepRule, Time, Watch, Wrong};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::time::Instant;
@@ -101,7 +101,7 @@ impl Asked for AblationAsked {
         let seconds = SHARE * limit;
         bare.time = Time {
             duration: self.steps as f64 * seconds,
-            step: StepRule::Given { seconds, beyond_limit: false },
+            step: StepRule::Given { seconds, beyond_limit: Beyond::Refused },
         };
         let plain = plain(bare);
         let planned = |variant: Variant| Ok(Ablated { plan: named(&variant.scene, variant.name)?, variant });

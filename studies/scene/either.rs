@@ -4,7 +4,7 @@ use crate::subject::Subject;
 use pd_verify::lattice::{Lattice, Stencil};
 use pd_verify::plan::Plan;
 use pd_verify::record::{Failure, Patch, Record};
-use pd_verify::scene::{Operator, Probe, Scene, StepRule, Time, Watch, Wrong};
+use pd_verify::scene::{Beyond, Operator, Probe, Scene, StepRule, Time, Watch, Wrong};
 
 /// One of the two.
 #[derive(Debug, Clone)]
@@ -113,7 +113,7 @@ fn beginning<const D: usize>(scene: &Scene<D>, operator: Operator, steps: u64, p
         operator,
         time: Time {
             duration: steps as f64 * seconds,
-            step: StepRule::Given { seconds, beyond_limit: true },
+            step: StepRule::Given { seconds, beyond_limit: Beyond::UntilItShows },
         },
         probes: own.chain(lines).collect(),
         snapshots: Vec::new(),

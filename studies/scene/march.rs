@@ -2,6 +2,7 @@
 //! every march must keep and by what its author expects.
 
 use super::body;
+use super::diverged;
 use super::edges::EdgesAsked;
 use super::effects::{Acting, EffectAsked};
 use super::either::Either;
@@ -47,7 +48,7 @@ pub struct MarchAsked {
     pub safety: Option<f64>,
     /// Δt itself, in place of `safety`.
     pub time_step_s: Option<f64>,
-    /// Whether `time_step_s` may be above the limit. Default `false`.
+    /// Whether `time_step_s` may be above the limit: then it is marched until growth shows. Default `false`.
     pub unstable: Option<bool>,
     /// Default `small`.
     pub rotations: Option<Rotations>,
@@ -200,10 +201,11 @@ ledger: ½ρV Σ v(n + ½)² + ½ u(n)ᵀK u(n + 1) − work + energy of cut bon
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
         let runs: Vec<Result<Record, Failure>> =
             self.scenes.iter().map(|one| one.scene.march(subject)).collect();
-        let seen = || runs.iter().flatten();
-        let ran = || self.scenes.iter().zip(&runs).filter_map(|(one, run)| Some((one, run.as_ref().ok()?)));
+        let seen = || runs.iter().filter_map(diverged::seen);
+        let ran = || self.scenes.iter().zip(&runs).filter_map(|(one, run)| Some((one, diverged::seen(run)?)));
         let alone = self.scenes.len() == 1;
-        let tables = vec![table(seen(), place)];
+        let mut tables = vec![table(seen(), place)];
+        tables.extend(diverged::table(&runs, place));
         let mut figures = figures(&self.title, &seen().collect::<Vec<_>>(), place);
         figures.extend(snapshots::figures(
             &self.title,
@@ -212,17 +214,17 @@ ledger: ½ρV Σ v(n + ½)² + ½ u(n)ᵀK u(n + 1) − work + energy of cut bon
             alone,
             place,
         ));
+        diverged::flag(&mut figures, &runs);
         let failure = runs.iter().find_map(|run| run.as_ref().err());
         let evidence = match failure {
             Some(failure) => Answer::failed(&self.claims(place), &why(self, failure)).evidence,
             None => evidence(self, &seen().collect::<Vec<_>>(), subject),
         };
-        let taken = |run: Result<Record, Failure>| run.map(|record| record.snapshots).unwrap_or_default();
         let files = self
             .scenes
             .iter()
             .zip(runs)
-            .flat_map(|(one, run)| snapshots::files(&self.snapshots, one, taken(run), alone, place));
+            .flat_map(|(one, run)| diverged::files(&self.snapshots, one, run, alone, place));
         Answer { evidence, tables, figures, files: files.collect() }
     }
 }

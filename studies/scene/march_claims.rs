@@ -134,9 +134,9 @@ pub fn evidence(case: &March, records: &[&Record], subject: &dyn Subject) -> Vec
 
 /// Why a march has no record, and what can be done about it where nobody meant it.
 pub fn why(case: &March, failure: &Failure) -> String {
-    let grew = matches!(failure, Failure::Diverged { .. });
+    let grew = matches!(failure, Failure::Diverged(_));
     let advice = match grew && !is_linear(case) && !above_limit(case) {
-        true => "; that is the limit of the linear lattice, which tension lowers: take a smaller Δt",
+        true => "; the lattice's limit is that of small rotations, which tension lowers",
         false => "",
     };
     format!("{failure}{advice}")

@@ -5,6 +5,7 @@
 
 mod balances;
 mod body;
+mod diverged;
 mod edges;
 pub mod effects;
 pub mod either;
@@ -29,4 +30,4 @@ use crate::written::Word;
 pub const WORDS: &[Word] = &[Word::of::<march::MarchAsked>("march")];
 
 /// Files that cases share; no figure may take their names.
-pub const TABLES: &[&str] = &["probes", "verdicts"];
+pub const TABLES: &[&str] = &["diverged", "probes", "verdicts"];

@@ -8,7 +8,7 @@ use crate::attachment::Attachment;
 use crate::bar::names::slug;
 use crate::input::OneOrMany;
 use crate::question::Place;
-use pd_verify::record::{Record, Snapshot};
+use pd_verify::record::{LAST_SOUND, Record, Snapshot};
 use pd_verify::report::plot::Figure;
 use pd_verify::report::pvd;
 use pd_verify::scene::{Snapshots, Wrong};
@@ -55,6 +55,10 @@ impl SnapshotAsked {
 
     fn check(&self) -> Result<(), Wrong> {
         check_name(&self.name)?;
+        if self.name == LAST_SOUND {
+            let message = "the body at the last sound look of a march that diverges is called so";
+            return Err(Wrong::new("name", message, "choose another name"));
+        }
         if self.formats.as_ref().is_some_and(Vec::is_empty) && !self.pictured() {
             let message = "these snapshots are neither written nor drawn";
             return Err(Wrong::new("formats", message, "name a format, or leave picture = false out"));

@@ -6,7 +6,7 @@ use crate::question::Profile;
 use crate::run::run;
 use crate::study::Study;
 use crate::subject::{PdVerify, Subject};
-use pd_verify::record::{self, Failure, Record};
+use pd_verify::record::{self, Diverged, Failure, Record};
 use pd_verify::scene::{Operator, Scene};
 use pd_verify::verdict::Verdict;
 use std::collections::BTreeMap;
@@ -166,11 +166,10 @@ fn what_finite_rotations_lose_is_said_with_its_cure() {
     let energy = judged.iter().find(|one| one.claim.id.ends_with("energy_balance")).unwrap();
     assert_eq!(energy.verdict, Verdict::Fail);
     assert!(energy.evidence.note.contains("take a smaller Δt"), "{}", energy.evidence.note);
-    let grown = |scene: &Scene<1>| Failure::Diverged {
-        scene: scene.name.clone(),
-        step: 1,
-        time: 1.0,
-        over_limit: 1.0,
+    let grown = |scene: &Scene<1>| {
+        let record = record::run(scene).unwrap();
+        let (sound_step, own_limit, sound) = (None, None, None);
+        Failure::Diverged(Box::new(Diverged { step: 1, time: 1.0, sound_step, own_limit, sound, record }))
     };
     let said = |case: &str| {
         let judged = run(&study(case), Profile::Full, &Growing(grown), &Silent).judged;

@@ -1,6 +1,6 @@
 //! How long a scene lasts and by which steps, as written.
 
-use pd_verify::scene::{StepRule, Time, Wrong};
+use pd_verify::scene::{Beyond, StepRule, Time, Wrong};
 
 /// The share of the limit where nothing is said.
 const SAFETY: f64 = 0.8;
@@ -23,7 +23,8 @@ pub fn time(
         }
         (safety, None, None) => StepRule::OfLimit(safety.unwrap_or(SAFETY)),
         (None, Some(seconds), unstable) => {
-            StepRule::Given { seconds, beyond_limit: unstable.unwrap_or(false) }
+            let beyond_limit = if unstable == Some(true) { Beyond::UntilItShows } else { Beyond::Refused };
+            StepRule::Given { seconds, beyond_limit }
         }
     };
     Ok(Time { duration, step })

@@ -7,8 +7,10 @@ use pd_verify::forces::surface::Correction;
 use pd_verify::lattice::{Lattice, Stencil};
 use pd_verify::material::{Body, Material};
 use pd_verify::plan::{Plan, stable_time_step};
-use pd_verify::record::{Failure, Record};
-use pd_verify::scene::{Initial, NotchAsked, Positive, Probe, Scene, Shape, StepRule, Time, Watch, Wrong};
+use pd_verify::record::{Diverged, Failure, Record};
+use pd_verify::scene::{
+    Beyond, Initial, NotchAsked, Positive, Probe, Scene, Shape, StepRule, Time, Watch, Wrong,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -37,7 +39,7 @@ pub enum FreeBody {
 #[derive(Debug, Clone)]
 pub struct Look {
     pub step: u64,
-    /// Displacements of all nodes in m, node by node along x, then row by row.
+    /// Displacements of all nodes that there are in m, node by node along x, then row by row.
     pub displacement: Vec<f64>,
     /// Accelerations in m/s².
     pub acceleration: Vec<f64>,
@@ -165,11 +167,32 @@ impl FreeBody {
         }
     }
 
-    /// Marches it and looks at it.
+    /// Marches it, however it grows, and looks at it.
     pub fn march(&self, subject: &dyn Subject, pace: Pace) -> Result<Vec<Look>, Failure> {
         match self {
             Self::Bar(scene) => subject.march_bar(&paced(scene, pace)).map(|record| looks::<1>(&record)),
             Self::Plate(scene) => subject.march_plate(&paced(scene, pace)).map(|record| looks::<2>(&record)),
+        }
+    }
+
+    /// The same until growth shows that it diverges; `None` where it does not.
+    pub fn watched(
+        &self,
+        subject: &dyn Subject,
+        pace: Pace,
+    ) -> Result<(Vec<Look>, Option<Box<Diverged>>), Failure> {
+        let seen = match self {
+            Self::Bar(scene) => subject.march_bar(&until_it_shows(paced(scene, pace))),
+            Self::Plate(scene) => subject.march_plate(&until_it_shows(paced(scene, pace))),
+        };
+        let of = |record: &Record| match self {
+            Self::Bar(_) => looks::<1>(record),
+            Self::Plate(_) => looks::<2>(record),
+        };
+        match seen {
+            Ok(record) => Ok((of(&record), None)),
+            Err(Failure::Diverged(diverged)) => Ok((of(&diverged.record), Some(diverged))),
+            Err(wrong) => Err(wrong),
         }
     }
 
@@ -244,7 +267,7 @@ fn plans<const D: usize>(scene: &Scene<D>, marches: &[(f64, u64)]) -> Result<Vec
 }
 
 fn paced<const D: usize>(scene: &Scene<D>, pace: Pace) -> Scene<D> {
-    let step = StepRule::Given { seconds: pace.seconds, beyond_limit: true };
+    let step = StepRule::Given { seconds: pace.seconds, beyond_limit: Beyond::UntilItOverflows };
     let watch = Watch::Patch { from: [0.0; D], to: scene.size() };
     Scene {
         time: Time { duration: pace.seconds * pace.steps as f64, step },
@@ -253,12 +276,22 @@ fn paced<const D: usize>(scene: &Scene<D>, pace: Pace) -> Scene<D> {
     }
 }
 
+/// As users march.
+fn until_it_shows<const D: usize>(mut scene: Scene<D>) -> Scene<D> {
+    if let StepRule::Given { beyond_limit, .. } = &mut scene.time.step {
+        *beyond_limit = Beyond::UntilItShows;
+    }
+    scene
+}
+
 /// What a patch saw, displacements and accelerations apart.
 fn looks<const D: usize>(record: &Record) -> Vec<Look> {
     let Some(trace) = record.trace(LOOK) else { return Vec::new() };
     let look = |(time, row): (&f64, &Vec<f64>)| {
+        let seen: Vec<f64> =
+            row.iter().zip(&trace.columns).filter(|(_, c)| !c.removed).map(|(x, _)| *x).collect();
         let part =
-            |from: usize| row.chunks_exact(2 * D).flat_map(|node| node[from..from + D].to_vec()).collect();
+            |from: usize| seen.chunks_exact(2 * D).flat_map(|node| node[from..from + D].to_vec()).collect();
         let step = (time / record.plan.time_step_s).round() as u64;
         Look { step, displacement: part(0), acceleration: part(D) }
     };

@@ -139,7 +139,7 @@ impl Question for LongRun {
             .bodies
             .par_iter()
             .zip(&self.plans)
-            .map(|(body, plan)| self.keep(subject, body, plan))
+            .map(|(body, plan)| kept(subject, body, plan, self.safety, self.steps))
             .collect();
         let all: Vec<Kept> = match all.into_iter().collect() {
             Ok(all) => all,
@@ -164,50 +164,56 @@ struct Slips {
     terms: f64,
 }
 
+/// Of a body below its limit at Δt = `safety` of it.
+fn slips(body: &FreeBody, time_step: f64, safety: f64) -> Result<Slips, String> {
+    let (family, row_sum) = body.weights()?;
+    let pulls = 2.0 * (family + 16) as f64 * row_sum * body.courant(time_step).powi(2);
+    Ok(Slips {
+        energy: 4.0 * safety * safety * (2.0 + 6.0 * safety) + pulls,
+        momentum: 2.0 * safety + 12.0 * safety * safety + pulls,
+        terms: 4.0 * safety * safety,
+    })
+}
+
+/// By how much rounding may move the sum of the displacements of some nodes in m, whose norm with all others is `size`, within
+/// so many steps: momentum walks, and is summed.
+pub fn wander(body: &FreeBody, time_step: f64, safety: f64, size: f64, steps: u64) -> Result<f64, String> {
+    let steps = steps.max(1) as f64;
+    let adding = LAMBDA * steps.sqrt() * UNIT * size;
+    Ok(LAMBDA * steps * steps.sqrt() * UNIT * slips(body, time_step, safety)?.momentum * size + adding)
+}
+
+/// Marches a body from rest at Δt = `safety` of the lattice's limit and holds its accounts against rounding.
+pub fn kept(
+    subject: &dyn Subject,
+    body: &FreeBody,
+    plan: &Plan,
+    safety: f64,
+    steps: u64,
+) -> Result<Kept, String> {
+    let every = (steps / LOOKS).max(1);
+    let pace = Pace { seconds: plan.time_step_s, steps, every };
+    let booked = body.booked(subject, pace).map_err(|failure| failure.to_string())?;
+    let slips = slips(body, plan.time_step_s, safety)?;
+    let start: &Look = booked.looks.first().ok_or("the body was not seen")?;
+    let (size, count) = (norm(&start.displacement), start.displacement.len() as f64);
+    let inertia = body.mass() / plan.time_step_s.powi(2);
+    let walk = |step: u64| LAMBDA * (step.max(1) as f64).sqrt();
+    // What is looked at is a sum too: of twice as many terms as there are components.
+    let energy_allowed = |step: u64| {
+        UNIT * inertia * size * size * (walk(step) * slips.energy + 2.0 * (2.0 * count + 8.0) * slips.terms)
+    };
+    let momentum_allowed = |step: u64| {
+        let sum = (count + 8.0) * count.sqrt() * 2.0 * safety;
+        UNIT * body.mass() / plan.time_step_s * size * (walk(step) * slips.momentum + sum)
+    };
+    let energy = booked.energies.first().ok_or("no energy was booked")?.1;
+    let drift = booked.energies.iter().map(|&(step, h)| (step, (h - energy).abs(), energy_allowed(step)));
+    let momentum = booked.momenta.iter().map(|&(step, p)| (step, p, momentum_allowed(step)));
+    Ok(Kept { energy, drift: drift.collect(), momentum: momentum.collect(), excess: excess(&booked.looks) })
+}
+
 impl LongRun {
-    /// Of a body at vΔt/Δx or c_dΔt/Δx = `courant`.
-    fn slips(&self, body: &FreeBody, courant: f64) -> Result<Slips, String> {
-        let (family, row_sum) = body.weights()?;
-        let s = self.safety;
-        let pulls = 2.0 * (family + 16) as f64 * row_sum * courant * courant;
-        Ok(Slips {
-            energy: 4.0 * s * s * (2.0 + 6.0 * s) + pulls,
-            momentum: 2.0 * s + 12.0 * s * s + pulls,
-            terms: 4.0 * s * s,
-        })
-    }
-
-    fn keep(&self, subject: &dyn Subject, body: &FreeBody, plan: &Plan) -> Result<Kept, String> {
-        let every = (self.steps / LOOKS).max(1);
-        let pace = Pace { seconds: plan.time_step_s, steps: self.steps, every };
-        let booked = body.booked(subject, pace).map_err(|failure| failure.to_string())?;
-        let slips = self.slips(body, body.courant(plan.time_step_s))?;
-        let start: &Look = booked.looks.first().ok_or("the body was not seen")?;
-        let (size, count) = (norm(&start.displacement), start.displacement.len() as f64);
-        let inertia = body.mass() / plan.time_step_s.powi(2);
-        let walk = |step: u64| LAMBDA * (step.max(1) as f64).sqrt();
-        // What is looked at is a sum too: of twice as many terms as there are components.
-        let energy_allowed = |step: u64| {
-            UNIT * inertia
-                * size
-                * size
-                * (walk(step) * slips.energy + 2.0 * (2.0 * count + 8.0) * slips.terms)
-        };
-        let momentum_allowed = |step: u64| {
-            let sum = (count + 8.0) * count.sqrt() * 2.0 * self.safety;
-            UNIT * body.mass() / plan.time_step_s * size * (walk(step) * slips.momentum + sum)
-        };
-        let energy = booked.energies.first().ok_or("no energy was booked")?.1;
-        let drift = booked.energies.iter().map(|&(step, h)| (step, (h - energy).abs(), energy_allowed(step)));
-        let momentum = booked.momenta.iter().map(|&(step, p)| (step, p, momentum_allowed(step)));
-        Ok(Kept {
-            energy,
-            drift: drift.collect(),
-            momentum: momentum.collect(),
-            excess: excess(&booked.looks),
-        })
-    }
-
     fn evidence(&self, all: &[Kept]) -> Vec<(String, Evidence)> {
         let over = |of: &dyn Fn(&Kept) -> Option<f64>, note: String| {
             let each: Option<Vec<f64>> = all.iter().map(of).collect();

@@ -3,11 +3,20 @@
 pub mod arithmetic;
 mod arithmetic_sums;
 pub mod body;
+pub mod discontinuities;
+mod discontinuities_report;
+pub mod divergence;
+mod divergence_report;
+pub mod geometry;
+mod geometry_report;
 mod growing;
+mod jumps;
 pub mod long_run;
 mod long_run_report;
 pub mod rotation;
 pub mod scaling;
+mod shape;
+mod sound;
 pub mod time_step;
 mod time_step_report;
 
@@ -16,6 +25,9 @@ use crate::written::Word;
 /// What a case may ask.
 pub const WORDS: &[Word] = &[
     Word::of::<time_step::TimeStepAsked>("time_step"),
+    Word::of::<divergence::DivergenceAsked>("divergence"),
+    Word::of::<discontinuities::DiscontinuitiesAsked>("discontinuities"),
+    Word::of::<geometry::GeometryAsked>("geometry"),
     Word::of::<long_run::LongRunAsked>("long_run"),
     Word::of::<rotation::RotationAsked>("rotation"),
     Word::of::<scaling::ScalingAsked>("scaling"),
@@ -25,6 +37,9 @@ pub const WORDS: &[Word] = &[
 /// Files that cases share; no figure may take their names.
 pub const TABLES: &[&str] = &[
     "stability_arithmetic",
+    "stability_discontinuities",
+    "stability_divergence",
+    "stability_geometry",
     "stability_long_run",
     "stability_rotation",
     "stability_scaling",

@@ -14,7 +14,9 @@ use pd_verify::lattice::Stencil;
 use pd_verify::plan::Plan;
 use pd_verify::record::Record;
 use pd_verify::report::plot::{Axis, Figure, Lines, Series};
-use pd_verify::scene::{Initial, Positive, Probe, Rotations, Scene, Shape, StepRule, Time, Watch, Wrong};
+use pd_verify::scene::{
+    Beyond, Initial, Positive, Probe, Rotations, Scene, Shape, StepRule, Time, Watch, Wrong,
+};
 use pd_verify::table::{Cell, Table};
 use pd_verify::verdict::Evidence;
 use rayon::prelude::*;
@@ -227,7 +229,7 @@ fn rotated(plate: &Scene<2>, turn: [[f64; 2]; 2]) -> Scene<2> {
 /// v = Ω × (x − x₀) at t = 0, and the whole body at every step.
 fn spun(plate: &Scene<2>, spin: f64, seconds: f64, steps: u64) -> Scene<2> {
     let velocity = [linear(plate, 0, 1, -spin), linear(plate, 1, 0, spin)].concat();
-    let step = StepRule::Given { seconds, beyond_limit: false };
+    let step = StepRule::Given { seconds, beyond_limit: Beyond::Refused };
     let watch = Watch::Patch { from: [0.0; 2], to: plate.size() };
     Scene {
         velocity,

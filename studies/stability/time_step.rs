@@ -214,7 +214,7 @@ impl TimeStepLimit {
         let grown =
             if growing.rate > 0.0 { march(above, far, far / LOOKS).map_err(said)? } else { Vec::new() };
         let given_up = match march(above, self.steps, self.steps) {
-            Err(Failure::Diverged { step, .. }) => Some(step),
+            Err(Failure::Diverged(diverged)) => Some(diverged.step),
             Err(other) => return Err(other.to_string()),
             Ok(_) => None,
         };

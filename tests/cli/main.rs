@@ -6,6 +6,7 @@ mod commands;
 mod cost;
 mod cost_scene;
 mod cracks;
+mod diverged;
 #[cfg(unix)]
 mod faults;
 #[cfg(unix)]

@@ -13,7 +13,7 @@ use pd_verify::partial_volume::VolumeRule;
 use pd_verify::plan::Plan;
 use pd_verify::record;
 use pd_verify::scene::{
-    Effect, History, Initial, Notch, Positive, Probe, Rotations, Running, Scene, Shape, StepRule, Time, Watch,
+    Beyond, Effect, History, Initial, Notch, Positive, Probe, Rotations, Running, Scene, Shape, StepRule, Time, Watch,
 };
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -41,7 +41,7 @@ fn moving<const D: usize>(nodes: [usize; D]) -> Scene<D> {
         velocity: vec![wave(D - 1, 0.1)],
         time: Time {
             duration: STEPS as f64 * STEP_S,
-            step: StepRule::Given { seconds: STEP_S, beyond_limit: false },
+            step: StepRule::Given { seconds: STEP_S, beyond_limit: Beyond::Refused },
         },
         probes: vec![Probe { name: "all".into(), watch: Watch::Patch { from: [0.0; D], to }, every: 7 }],
         ..still

@@ -8,7 +8,7 @@ use pd_verify::march::March;
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::plan::Plan;
 use pd_verify::record::{Record, run};
-use pd_verify::scene::{Hole, Initial, Probe, Rotations, Scene, Shape, StepRule, Time, Watch};
+use pd_verify::scene::{Beyond, Hole, Initial, Probe, Rotations, Scene, Shape, StepRule, Time, Watch};
 use serde_json::json;
 use std::f64::consts::TAU;
 
@@ -16,7 +16,10 @@ const STEP: f64 = 1e-7;
 const STEPS: u64 = 60;
 
 fn time(steps: u64) -> Time {
-    Time { duration: STEP * steps as f64, step: StepRule::Given { seconds: STEP, beyond_limit: false } }
+    Time {
+        duration: STEP * steps as f64,
+        step: StepRule::Given { seconds: STEP, beyond_limit: Beyond::Refused },
+    }
 }
 
 fn probe<const D: usize>(name: impl Into<String>, watch: Watch<D>, every: u64) -> Probe<D> {

@@ -7,7 +7,7 @@ use pd_verify::forces::{BodyForce, Damping, Traction};
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::plan::Plan;
 use pd_verify::record::run;
-use pd_verify::scene::{Effect, Hole, Initial, Probe, Region, Scene, Shape, StepRule, Time, Watch};
+use pd_verify::scene::{Beyond, Effect, Hole, Initial, Probe, Region, Scene, Shape, StepRule, Time, Watch};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -186,7 +186,7 @@ fn probes_in_holes() {
 fn durations_are_covered_and_endless_ones_refused() {
     let time = |duration: f64, seconds: f64| Time {
         duration,
-        step: StepRule::Given { seconds, beyond_limit: true },
+        step: StepRule::Given { seconds, beyond_limit: Beyond::UntilItShows },
     };
     let steps =
         |duration, seconds| Plan::of(&Scene { time: time(duration, seconds), ..bar() }).unwrap().steps;
@@ -223,7 +223,7 @@ fn a_late_step_of_load_is_of_second_order() {
             effects: vec![effect::<1, BodyForce>(push.clone())],
             time: Time {
                 duration: 2e-5,
-                step: StepRule::Given { seconds: 2e-5 / steps, beyond_limit: true },
+                step: StepRule::Given { seconds: 2e-5 / steps, beyond_limit: Beyond::UntilItShows },
             },
             probes: vec![Probe { name: "u".into(), watch: Watch::Point { at: [0.02] }, every: 1 }],
             displacement: vec![Initial { component: 0, amplitude: 0.0, shape: Shape::Uniform }],

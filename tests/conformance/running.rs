@@ -14,7 +14,9 @@ use pd_verify::model::Model;
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::plan::Plan;
 use pd_verify::record::run;
-use pd_verify::scene::{Hole, Notch, Operator, Probe, Rotations, Running, Scene, StepRule, Time, Watch};
+use pd_verify::scene::{
+    Beyond, Hole, Notch, Operator, Probe, Rotations, Running, Scene, StepRule, Time, Watch,
+};
 use serde_json::json;
 
 const STEP: f64 = 2e-7;
@@ -231,7 +233,10 @@ fn threads_change_no_bit() {
             probe("row", Watch::Line { along: 0, through: 61.0 * spacing }),
             probe("energies", Watch::Energies),
         ],
-        time: Time { duration: 200.0 * STEP, step: StepRule::Given { seconds: STEP, beyond_limit: false } },
+        time: Time {
+            duration: 200.0 * STEP,
+            step: StepRule::Given { seconds: STEP, beyond_limit: Beyond::Refused },
+        },
         ..large
     };
     for operator in [Operator::Stencil, Operator::Bonds] {

@@ -7,7 +7,7 @@ use pd_verify::forces::{BodyForce, Damping, Traction};
 use pd_verify::partial_volume::VolumeRule;
 use pd_verify::plan::Plan;
 use pd_verify::record::{Record, run};
-use pd_verify::scene::{Initial, Probe, Rotations, Scene, Shape, Snapshots, StepRule, Time, Watch};
+use pd_verify::scene::{Beyond, Initial, Probe, Rotations, Scene, Shape, Snapshots, StepRule, Time, Watch};
 use serde_json::json;
 use std::f64::consts::TAU;
 
@@ -46,7 +46,7 @@ fn busy<const D: usize>(nodes: [usize; D], rotations: Rotations) -> Scene<D> {
         ],
         time: Time {
             duration: STEP * STEPS as f64,
-            step: StepRule::Given { seconds: STEP, beyond_limit: false },
+            step: StepRule::Given { seconds: STEP, beyond_limit: Beyond::Refused },
         },
         ..body
     }
@@ -160,7 +160,7 @@ fn a_falling_bar_has_the_velocity_of_its_own_time() {
     let times: Vec<f64> = (0..=4).map(|n| f64::from(n) * 1e-6).collect();
     let scene = Scene {
         effects: vec![effect::<1, BodyForce>(push)],
-        time: Time { duration: 4e-6, step: StepRule::Given { seconds: STEP, beyond_limit: false } },
+        time: Time { duration: 4e-6, step: StepRule::Given { seconds: STEP, beyond_limit: Beyond::Refused } },
         snapshots: vec![asked("falling", &times)],
         ..bar
     };

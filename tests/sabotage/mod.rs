@@ -1,6 +1,7 @@
 //! Every claim can fail: the library with one ingredient made wrong must lose at least one verdict, and every claim
 //! must be lost to at least one wrong ingredient.
 
+mod arithmetic_faults;
 mod bar_faults;
 mod convergence_faults;
 mod cost_faults;
@@ -62,7 +63,8 @@ fn every_fault_in_cracked_plates_is_caught_and_every_claim_about_them_can_fail()
 
 #[test]
 fn every_fault_in_stability_is_caught_and_every_claim_about_it_can_fail() {
-    check_where_it_is(Kind::Stability, &stability_faults::all());
+    let faults: Vec<_> = stability_faults::all().into_iter().chain(arithmetic_faults::all()).collect();
+    check_where_it_is(Kind::Stability, &faults);
 }
 
 #[test]

@@ -3,34 +3,34 @@
 
 use super::dsif_faults::Fault;
 use crate::subject::{PdVerify, Subject};
-use pd_verify::dispersion::Wave;
-use pd_verify::dispersion::bar::BarDispersion;
 use pd_verify::dispersion::timestep::TimeStep;
 use pd_verify::fastest::Fastest;
 use pd_verify::forces::surface::Correction;
 use pd_verify::forces::{BodyForce, Damping};
-use pd_verify::kernel::Kernel;
 use pd_verify::lattice::Stencil;
-use pd_verify::material::Body;
-use pd_verify::record::{Failure, Record};
-use pd_verify::scene::{Axis, HistoryAsked, Positive, Rotations, Scene, StepRule};
-use pd_verify::stress_intensity::{Faces, Reading};
-use pd_verify_reference::released_bar::ReleasedBar;
+use pd_verify::record::{Diverged, Failure, Record};
+use pd_verify::scene::{Axis, HistoryAsked, Notch, Positive, Rotations, Scene, StepRule};
 use std::sync::Arc;
 
-const STEPS: &[&str] = &["stability-time-step"];
-const LONG: &[&str] = &["stability-long-run"];
+const STEPS: &[&str] = &["stability-time-step", "stability-extremes"];
+const GROWTH: &[&str] = &["stability-divergence"];
+const SHAPES: &[&str] = &["stability-geometry"];
+const JUMPS: &[&str] = &["stability-discontinuities"];
+const LONG: &[&str] = &["stability-long-run", "stability-extremes"];
+const ENDS: &[&str] = &["stability-extremes"];
 const TURNS: &[&str] = &["stability-rotation"];
 const UNITS: &[&str] = &["stability-scaling"];
-const DIGITS: &[&str] = &["stability-arithmetic"];
 
 /// All of them.
 pub fn all() -> Vec<Fault> {
     let fault = |name, subject| Fault { name, studies: STEPS, subject };
+    let growth = |name, subject| Fault { name, studies: GROWTH, subject };
+    let ends = |name, subject| Fault { name, studies: ENDS, subject };
+    let shapes = |name, subject| Fault { name, studies: SHAPES, subject };
+    let jumps = |name, subject| Fault { name, studies: JUMPS, subject };
     let long = |name, subject| Fault { name, studies: LONG, subject };
     let turns = |name, subject| Fault { name, studies: TURNS, subject };
     let units = |name, subject| Fault { name, studies: UNITS, subject };
-    let digits = |name, subject| Fault { name, studies: DIGITS, subject };
     vec![
         fault("marched with steps a fiftieth too long", Box::new(OtherStep(1.02)) as Box<dyn Subject + Send>),
         fault("marched with steps a fiftieth too short", Box::new(OtherStep(0.98))),
@@ -40,6 +40,23 @@ pub fn all() -> Vec<Fault> {
         fault("another mode is said to be the fastest", Box::new(OtherMode(upside_down))),
         fault("surface corrections are forgotten", Box::new(Uncorrected)),
         fault("what diverges is noticed far too late", Box::new(Late)),
+        growth("a march that grows is given up far too late", Box::new(Late)),
+        growth(
+            "the last sound look is that at which the march is given up",
+            Box::new(Told(sound_to_the_end)),
+        ),
+        growth("the limit that is reported is two per cent too large", Box::new(Told(long_limit))),
+        growth("what grows a thousandfold is given up", Box::new(Alarmed)),
+        growth("loads are forgotten but for a damped fall", Box::new(Unloaded)),
+        ends("bonds are a millionth softer", Box::new(Softer)),
+        ends("no notch cuts while the smallest bodies move", Box::new(Whole)),
+        shapes("nodes on a notch belong to its right", Box::new(Turned)),
+        shapes("no notch cuts while the body moves", Box::new(Whole)),
+        shapes("shapes are damped", Box::new(Acted(damped, damped))),
+        shapes("shapes fall", Box::new(Acted(heavy, heavy))),
+        shapes("shapes are marched with steps two fifths too long", Box::new(OtherStep(1.4))),
+        jumps("jumps are marched with steps half too long", Box::new(OtherStep(1.5))),
+        jumps("jumps are damped", Box::new(Acted(damped, damped))),
         long("damping that nobody asked for", Box::new(Acted(damped, damped))),
         long("a body force that nobody asked for", Box::new(Acted(heavy, heavy))),
         long("marched with steps two fifths too long", Box::new(OtherStep(1.4))),
@@ -51,11 +68,6 @@ pub fn all() -> Vec<Fault> {
             "bonds of small bodies are a billionth softer",
             Box::new(Acted(soft_when_small, soft_when_small)),
         ),
-        digits("long waves by 1 − cos", Box::new(Printed)),
-        digits("stretched bonds keep their direction", Box::new(Law(Rotations::Small))),
-        digits("c₀ by the printed closed forms", Box::new(Printed)),
-        digits("a Fourier series without its last term", Box::new(Shorter)),
-        digits("K off in its twelfth digit", Box::new(TwelfthDigit)),
     ]
 }
 
@@ -169,7 +181,7 @@ fn heavy<const D: usize>(scene: &mut Scene<D>) {
 }
 
 /// Another law than the one asked for.
-struct Law(Rotations);
+pub struct Law(pub Rotations);
 
 impl Subject for Law {
     fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
@@ -213,45 +225,128 @@ impl Subject for Late {
 
 fn later(failure: Failure) -> Failure {
     match failure {
-        Failure::Diverged { scene, step, time, over_limit } => {
-            Failure::Diverged { scene, step: 3 * step, time: 3.0 * time, over_limit }
+        Failure::Diverged(diverged) => {
+            Failure::Diverged(Box::new(Diverged { step: 3 * diverged.step, ..*diverged }))
         }
         other => other,
     }
 }
 
-/// Formulas as they are printed.
-struct Printed;
+/// What is said of a march that was given up is changed.
+struct Told(fn(&mut Diverged));
 
-impl Subject for Printed {
-    fn bar_wave(&self, relation: &BarDispersion, k_dx: f64) -> Wave {
-        let terms = relation.weights().iter().zip(1..);
-        let square: f64 = terms.map(|(w, j)| 2.0 * w * (1.0 - libm::cos(f64::from(j) * k_dx))).sum();
-        Wave { omega: square.sqrt(), ..PdVerify.bar_wave(relation, k_dx) }
-    }
-
-    fn micromodulus(&self, body: Body, kernel: Kernel, e: f64, section: f64, horizon: f64) -> f64 {
-        match (body, kernel) {
-            (Body::Bar, Kernel::Gaussian { p }) => {
-                2.0 * e * p * p / (section * horizon * horizon * (1.0 - libm::exp(-p * p)))
+impl Told {
+    fn changed(&self, failure: Failure) -> Failure {
+        match failure {
+            Failure::Diverged(mut diverged) => {
+                (self.0)(&mut diverged);
+                Failure::Diverged(diverged)
             }
-            _ => PdVerify.micromodulus(body, kernel, e, section, horizon),
+            other => other,
         }
     }
 }
 
-struct Shorter;
+impl Subject for Told {
+    fn march_bar(&self, scene: &Scene<1>) -> Result<Record, Failure> {
+        PdVerify.march_bar(scene).map_err(|failure| self.changed(failure))
+    }
 
-impl Subject for Shorter {
-    fn released_strain(&self, bar: &ReleasedBar, x: f64, t: f64, terms: usize) -> f64 {
-        PdVerify.released_strain(bar, x, t, terms - 1)
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        PdVerify.march_plate(scene).map_err(|failure| self.changed(failure))
     }
 }
 
-struct TwelfthDigit;
+fn sound_to_the_end(diverged: &mut Diverged) {
+    diverged.sound_step = Some(diverged.step);
+}
 
-impl Subject for TwelfthDigit {
-    fn stress_intensity(&self, reading: &Reading, u: &[[f64; 2]], a: &[[f64; 2]], faces: Faces) -> [f64; 2] {
-        PdVerify.stress_intensity(reading, u, a, faces).map(|k| k * (1.0 + 1e-12))
+fn long_limit(diverged: &mut Diverged) {
+    diverged.own_limit = diverged.own_limit.map(|limit| 1.02 * limit);
+}
+
+/// Gives up whatever gains energy.
+struct Alarmed;
+
+impl Alarmed {
+    fn judged(&self, record: Record) -> Result<Record, Failure> {
+        let kinetic = record.trace("energies").map(|trace| trace.column(0)).unwrap_or_default();
+        let grown = kinetic.get(1).zip(kinetic.last()).is_some_and(|(first, last)| *last > 1e3 * first);
+        if !grown {
+            return Ok(record);
+        }
+        let (sound_step, own_limit, sound) = (None, None, None);
+        Err(Failure::Diverged(Box::new(Diverged {
+            step: 1,
+            time: 0.0,
+            sound_step,
+            own_limit,
+            sound,
+            record,
+        })))
+    }
+}
+
+impl Subject for Alarmed {
+    fn march_bar(&self, scene: &Scene<1>) -> Result<Record, Failure> {
+        PdVerify.march_bar(scene).and_then(|record| self.judged(record))
+    }
+
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        PdVerify.march_plate(scene).and_then(|record| self.judged(record))
+    }
+}
+
+/// A damped fall in place of any load: its energy grows by little.
+struct Unloaded;
+
+impl Unloaded {
+    fn changed<const D: usize>(&self, scene: &Scene<D>) -> Scene<D> {
+        let mut other = Scene { effects: Vec::new(), ..scene.clone() };
+        if !scene.effects.is_empty() {
+            heavy(&mut other);
+            other.effects.push(Arc::new(Damping { rate_per_s: Positive(1e6) }));
+        }
+        other
+    }
+}
+
+impl Subject for Unloaded {
+    fn march_bar(&self, scene: &Scene<1>) -> Result<Record, Failure> {
+        PdVerify.march_bar(&self.changed(scene))
+    }
+
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        PdVerify.march_plate(&self.changed(scene))
+    }
+}
+
+/// Notches are seen from their other end: nodes on them change sides.
+struct Turned;
+
+impl Subject for Turned {
+    fn bond_force_plate(&self, scene: &Scene<2>) -> Result<Vec<[f64; 2]>, String> {
+        let turned = scene.notches.iter().map(|notch| Notch { from: notch.to, to: notch.from });
+        PdVerify.bond_force_plate(&Scene { notches: turned.collect(), ..scene.clone() })
+    }
+}
+
+/// What was cut free is held by the rest of the plate.
+struct Whole;
+
+impl Subject for Whole {
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        PdVerify.march_plate(&Scene { notches: Vec::new(), ..scene.clone() })
+    }
+}
+
+/// Bonds that pull by a millionth less when they are asked.
+struct Softer;
+
+impl Subject for Softer {
+    fn bond_force_plate(&self, scene: &Scene<2>) -> Result<Vec<[f64; 2]>, String> {
+        let mut other = scene.clone();
+        other.material.youngs_modulus *= 1.0 - 1e-6;
+        PdVerify.bond_force_plate(&other)
     }
 }
