@@ -38,6 +38,7 @@ pub const SHIPPED: &[(&str, &str)] = &[
     ("studies/cost/bar.toml", include_str!("cost/bar.toml")),
     ("studies/cost/plate.toml", include_str!("cost/plate.toml")),
     ("studies/cost/crack.toml", include_str!("cost/crack.toml")),
+    ("studies/cost/ablation.toml", include_str!("cost/ablation.toml")),
 ];
 
 /// All shipped studies of a kind (or all), with `--set` changes; a setting that no study has a place for is refused.

@@ -27,11 +27,12 @@ pub const WORDS: &[Word] = &[
     Word::of::<jump::JumpCostAsked>("jump_cost"),
     Word::of::<wave::WaveCostAsked>("wave_cost"),
     Word::of::<crack::CrackCostAsked>("crack_cost"),
+    Word::of::<ablation::AblationAsked>("ablation"),
 ];
 
 /// Files that cases share; no figure may take their names.
 pub const TABLES: &[&str] =
-    &["work_precision", "work_exponents", "work_cheapest", "work_choices", "verdicts"];
+    &["ablation", "work_precision", "work_exponents", "work_cheapest", "work_choices", "verdicts"];
 
 /// Ends of the names of figures beside the one that is called like its case.
 pub const SUFFIXES: &[&str] = &[];

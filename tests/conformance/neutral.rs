@@ -13,7 +13,8 @@ use pd_verify::partial_volume::VolumeRule;
 use pd_verify::plan::Plan;
 use pd_verify::record;
 use pd_verify::scene::{
-    Beyond, Effect, History, Initial, Notch, Positive, Probe, Rotations, Running, Scene, Shape, StepRule, Time, Watch,
+    Beyond, Effect, History, Initial, Notch, Positive, Probe, Rotations, Running, Scene, Shape, StepRule,
+    Time, Watch,
 };
 use serde_json::{Value, json};
 use std::sync::Arc;

@@ -2,8 +2,11 @@
 
 use super::convergence_faults::{OtherScene, aside, printed, soft, soft_when_fine};
 use super::dsif_faults::Fault;
-use crate::subject::Subject;
-use pd_verify::scene::{Scene, StepRule};
+use crate::subject::{PdVerify, Subject};
+use pd_verify::forces::Damping;
+use pd_verify::record::{Failure, Record};
+use pd_verify::scene::{Positive, Scene, StepRule};
+use std::sync::Arc;
 
 /// All of them, each with the studies in which it is looked for.
 pub fn all() -> Vec<Fault> {
@@ -20,6 +23,18 @@ pub fn all() -> Vec<Fault> {
         fault("pulses start half a cell aside", &["cost-bar"], OtherScene { bar: aside, plate: aside }),
         fault("fine bars are softer", &["cost-bar"], OtherScene { bar: soft_when_fine, plate: |_| () }),
         fault("all steps are half as long", &["cost-bar"], OtherScene { bar: halved, plate: |_| () }),
+        fault("a rate of nothing damps", &["cost-ablation"], Acted(drag, |_| ())),
+        fault("snapshots shake the plate", &["cost-ablation"], Acted(shake, |_| ())),
+        fault(
+            "plans name nothing",
+            &["cost-ablation"],
+            Acted(|_| (), |record| record.plan.avoidable.clear()),
+        ),
+        fault(
+            "a byte too many",
+            &["cost-ablation"],
+            Acted(|_| (), |record| record.plan.bytes_per_node += 0.1),
+        ),
         fault("fine plates are softer", &["cost-crack"], OtherScene { bar: |_| (), plate: soft_when_fine }),
     ]
 }
@@ -29,4 +44,32 @@ fn halved(scene: &mut Scene<1>) {
         StepRule::Given { seconds, .. } => *seconds *= 0.5,
         StepRule::OfLimit(share) => *share *= 0.5,
     }
+}
+
+/// A plate that is changed before it is marched, and its record after.
+struct Acted(fn(&mut Scene<2>), fn(&mut Record));
+
+impl Subject for Acted {
+    fn march_plate(&self, scene: &Scene<2>) -> Result<Record, Failure> {
+        let mut scene = scene.clone();
+        (self.0)(&mut scene);
+        let mut record = PdVerify.march_plate(&scene)?;
+        (self.1)(&mut record);
+        Ok(record)
+    }
+}
+
+/// Damping of rate 0 damps a little.
+fn drag(scene: &mut Scene<2>) {
+    for effect in &mut scene.effects {
+        if effect.name() == "damping" && effect.neutral(f64::INFINITY).is_some() {
+            *effect = Arc::new(Damping { rate_per_s: Positive(1.0) });
+        }
+    }
+}
+
+/// Who takes snapshots shakes the plate.
+fn shake(scene: &mut Scene<2>) {
+    let part = if scene.snapshots.is_empty() { 0.0 } else { 1e-14 };
+    scene.displacement[0].amplitude *= 1.0 + part;
 }
