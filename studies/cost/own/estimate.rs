@@ -16,6 +16,9 @@ const TIMES: usize = 10_000;
 /// Orders of successive triples may differ by this factor.
 const AGREEMENT: f64 = 1.5;
 
+/// Cells of a level over those of the next coarser that counts beside it: differences of closer ones are what scatters.
+const APART: f64 = 1.25;
+
 /// Differences of less than this part of the result are rounding.
 const ROUNDING: f64 = 1e-10;
 
@@ -67,7 +70,7 @@ pub struct Law {
     pub error: f64,
     /// Of every level, from coarse to fine, by its distance from the finest.
     pub errors: Vec<f64>,
-    /// Of the triples that end at the third level, the fourth, …
+    /// Of the triples that end at each level; `None` where it does not count beside a finer one, and of the first two.
     pub orders: Vec<Option<f64>>,
 }
 
@@ -87,14 +90,15 @@ impl Law {
 impl Estimate {
     /// From levels of (Δx in m, results), from coarse to fine, or why they say nothing.
     pub fn new(levels: &[(f64, &[History])]) -> Result<Self, String> {
-        if levels.len() < LEVELS {
-            return Err(format!("{} levels are too few to tell an order: it takes {LEVELS}", levels.len()));
+        let kept = apart_enough(levels);
+        if kept.len() < LEVELS {
+            return Err(format!("{} levels are too few to tell an order: it takes {LEVELS}", kept.len()));
         }
         let results = levels[0].1.len();
         let mut laws = Vec::new();
         for index in 0..results {
             let of: Vec<(f64, &History)> = levels.iter().map(|(h, seen)| (*h, &seen[index])).collect();
-            laws.extend(law(&of)?);
+            laws.extend(law(&of, &kept)?);
         }
         if laws.is_empty() {
             Err("nothing moves where the scene is watched".into())
@@ -131,8 +135,21 @@ impl Estimate {
     }
 }
 
-/// The law of one result; `None` where nothing is ever seen of it.
-fn law(levels: &[(f64, &History)]) -> Result<Option<Law>, String> {
+/// Levels that count, from coarse to fine: the finest, and each that is coarse enough beside the next that counts.
+fn apart_enough(levels: &[(f64, &[History])]) -> Vec<usize> {
+    let mut kept: Vec<usize> = Vec::new();
+    for index in (0..levels.len()).rev() {
+        let finer = kept.last().map_or(0.0, |&finer| levels[finer].0);
+        if levels[index].0 >= (APART - 1e-9) * finer {
+            kept.push(index);
+        }
+    }
+    kept.reverse();
+    kept
+}
+
+/// The law of one result, by those levels that count; `None` where nothing is ever seen of it.
+fn law(levels: &[(f64, &History)], kept: &[usize]) -> Result<Option<Law>, String> {
     let name = levels[0].1.name.clone();
     let sampled = sample(levels).ok_or_else(|| format!("{name} is not seen often enough"))?;
     let h: Vec<f64> = levels.iter().map(|(h, _)| *h).collect();
@@ -143,26 +160,29 @@ fn law(levels: &[(f64, &History)]) -> Result<Option<Law>, String> {
         return Ok(None);
     }
     let product = |a: &[f64], b: &[f64]| dot(a, b) / (TIMES as f64 * peak * peak);
-    let apart: Vec<Vec<f64>> = sampled.windows(2).map(|pair| minus(&pair[0], &pair[1])).collect();
+    let apart: Vec<Vec<f64>> =
+        kept.windows(2).map(|pair| minus(&sampled[pair[0]], &sampled[pair[1]])).collect();
     let sizes: Vec<f64> = apart.iter().map(|apart| product(apart, apart).sqrt()).collect();
     if sizes.iter().any(|size| !size.is_finite()) {
         return Err(format!("{name} is not finite on every level"));
     }
     let triple = |n: usize| {
         let cosine = product(&apart[n - 2], &apart[n - 1]) / (sizes[n - 2] * sizes[n - 1]);
-        Triple::of([h[n - 2], h[n - 1], h[n]], [sizes[n - 2], sizes[n - 1]], cosine)
+        Triple::of([h[kept[n - 2]], h[kept[n - 1]], h[kept[n]]], [sizes[n - 2], sizes[n - 1]], cosine)
     };
-    let orders: Vec<Option<f64>> = (2..=last).map(|n| triple(n).ok().map(|triple| triple.order)).collect();
+    let end = kept.len() - 1;
+    let mut orders = vec![None; h.len()];
+    (2..=end).for_each(|n| orders[kept[n]] = triple(n).ok().map(|triple| triple.order));
     let from_finest = |one: &Vec<f64>| {
         let apart = minus(one, &sampled[last]);
         product(&apart, &apart).sqrt()
     };
-    if sizes[last - 1] < ROUNDING {
+    if sizes[end - 1] < ROUNDING {
         let errors = sampled.iter().map(from_finest).collect();
-        return Ok(Some(Law { name, order: None, spacing: h[last], error: sizes[last - 1], errors, orders }));
+        return Ok(Some(Law { name, order: None, spacing: h[last], error: sizes[end - 1], errors, orders }));
     }
     let named = |why: &str| format!("{name}: {why}");
-    let (coarser, finer) = (triple(last - 1).map_err(named)?, triple(last).map_err(named)?);
+    let (coarser, finer) = (triple(end - 1).map_err(named)?, triple(end).map_err(named)?);
     if finer.order <= 0.0 || coarser.order <= 0.0 {
         return Err(format!(
             "{name}: levels move apart, by orders {:.2} and {:.2}",
@@ -264,6 +284,17 @@ mod tests {
         for (h, error) in hs.iter().zip(&law.errors) {
             assert!((error / exact(*h) - 1.0).abs() < 0.25, "{h}: {error} {}", exact(*h));
         }
+    }
+
+    /// A level close to another changes no law.
+    #[test]
+    fn levels_that_are_close_do_not_count_twice() {
+        let more = [0.35, 0.24, 0.16, 0.1, 0.075, 0.07];
+        let law = |hs: &[f64]| estimate(&levels(hs, 2.0, |_, _| 0.0)).unwrap().laws.remove(0);
+        let (plain, close) = (law(&HS), law(&more));
+        assert_eq!((plain.order, plain.error), (close.order, close.error));
+        assert_eq!((close.orders[4], close.orders[5]), (None, close.order));
+        assert!((close.errors[4] / close.errors[5] - (0.075_f64 / 0.07).powi(2)).abs() < 0.02);
     }
 
     #[test]

@@ -61,7 +61,7 @@ fn error(found: &Found, index: usize) -> Option<f64> {
 fn order(found: &Found, index: usize) -> Option<f64> {
     let estimate = found.estimate.as_ref().ok()?;
     let worst = estimate.worst(found.levels.last()?.spacing);
-    *worst.orders.get(index.checked_sub(2)?)?
+    *worst.orders.get(index)?
 }
 
 /// The question, the levels, the answer.
@@ -120,13 +120,13 @@ fn end(found: &Found) -> String {
     };
     let order = chosen.order.map_or("levels alike to rounding".into(), |order| format!("order {order:.2}"));
     let mut text = format!(
-        "Answer: Δx = {} m, horizon and Δt with it; {} nodes, {} steps of {} s, {:.2} MB.\n\
+        "Answer: Δx = {} m, horizon and Δt with it; {} nodes, {} steps of {} s, {} MB.\n\
          Predicted: {} s, error {} ({order}; {} with Roache's factor of safety {SAFETY}).\n",
         chosen.spacing,
         chosen.plan.nodes,
         chosen.plan.steps,
         rounded(chosen.plan.time_step_s),
-        1e-6 * chosen.bytes,
+        rounded(1e-6 * chosen.bytes),
         rounded(chosen.predicted),
         rounded(chosen.error),
         rounded(SAFETY * chosen.error),

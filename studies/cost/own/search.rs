@@ -31,8 +31,8 @@ const GIVEN_UP: u64 = 10_000_000_000;
 /// Visits of bonds beyond which no answer is marched: hours.
 const MAX_VISITS: u64 = 2_000_000_000_000;
 
-/// How many more answers are marched where one is not as accurate as was thought.
-const MORE: usize = 2;
+/// How often one more answer is sought where one is not as accurate as was thought.
+const MORE: usize = 4;
 
 /// A budget is kept if the answer takes no longer than this many times it.
 pub const KEPT: f64 = 1.5;
@@ -257,15 +257,27 @@ impl Search<'_> {
         affords(below).or_else(|| self.own.level(known).ok()).expect("the finest level was marched")
     }
 
-    /// Marches the answer; where it is not as accurate as was thought, the next one by all levels.
+    /// Marches the answer; where it is not as accurate as was thought, the next one by all levels, and where it tells no order, one
+    /// more level before that.
     fn until_met(&mut self, chosen: Chosen) -> Result<Chosen, Stopped> {
         let mut chosen = self.run(chosen)?;
         for _ in 0..MORE {
-            let error = chosen.outcome.as_ref().and_then(|outcome| outcome.error.as_ref().ok());
-            let missed = matches!((self.goal, error), (Goal::Error(asked), Some(error)) if *error > asked);
+            let (Goal::Error(asked), Some(outcome)) = (self.goal, &chosen.outcome) else { break };
+            match outcome.error {
+                Ok(error) if error <= asked => break,
+                Ok(_) => {}
+                Err(_) => {
+                    let finest = self.levels.last().map_or(0, |level| level.cells);
+                    let next = self.own.from((REFINED * finest as f64).round() as usize);
+                    let cheap = |level: &Level| level.plan.bond_updates <= GIVEN_UP;
+                    let Some(next) = next.filter(cheap) else { break };
+                    self.march(next)?;
+                }
+            }
             match self.choose() {
-                Ok(finer) if missed && finer.cells > chosen.cells => chosen = self.run(finer)?,
-                _ => break,
+                Ok(finer) if finer.cells != chosen.cells => chosen = self.run(finer)?,
+                Ok(_) => chosen = self.run(chosen)?,
+                Err(_) => {}
             }
         }
         Ok(chosen)
