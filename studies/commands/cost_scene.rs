@@ -3,12 +3,13 @@
 use super::judge::{self, End};
 use super::{find, folder, say};
 use crate::attachment::Attachment;
-use crate::bench::{kept, memory};
+use crate::bench::kept;
 use crate::cli::CostOptions;
 use crate::cost::own::levels::{Level, Own};
 use crate::cost::own::search::{Goal, Machine, Stopped, search};
 use crate::cost::own::{figure, report};
 use crate::input::Refusal;
+use crate::machine;
 use crate::output::Output;
 use crate::progress::interrupted;
 use crate::subject::PdVerify;
@@ -27,7 +28,7 @@ pub fn cost_scene(options: &CostOptions, scene: &Path) -> Result<u8, Refusal> {
     let machine = Machine {
         march: &timed,
         costs: kept.as_ref().map(|kept| &kept.costs),
-        memory: memory::available().unwrap_or(f64::INFINITY),
+        memory: machine::room().bytes,
         stop: &interrupted,
     };
     let pool = judge::threads(options.run.threads)?;

@@ -5,7 +5,7 @@
 
 use super::estimate::{Estimate, History};
 use super::levels::{Level, Own};
-use crate::bench::memory::needed;
+use crate::afford::needed;
 use pd_verify::plan::Plan;
 use pd_verify::plan::time::Costs;
 use pd_verify::record::{Failure, Record};
