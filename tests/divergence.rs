@@ -177,10 +177,17 @@ fn finite_rotations_are_recognised_and_their_own_limit_is_found() {
     let mut displacement = waves(&exact, 1e-3);
     displacement.extend([stretch(0), stretch(1)]);
     let stretched = Scene { displacement, ..exact };
-    let found = diverged(run(&at(&stretched, 1.0, 400, Beyond::UntilItShows)));
-    assert!(found.over_own_limit().unwrap() > 1.05 && found.sound_step.unwrap() >= 4, "{found}");
-    let calm = at(&stretched, found.holds().unwrap() / limit(&stretched), 400, Beyond::UntilItShows);
-    run(&calm).unwrap();
+    let mut share = 1.0;
+    // What holds at the strains of the last sound look need not hold at those to come: the advice is taken until it does.
+    for attempt in 0..8 {
+        let Err(Failure::Diverged(found)) = run(&at(&stretched, share, 400, Beyond::UntilItShows)) else {
+            assert!(attempt > 0 && share < 0.95, "{attempt}: {share}");
+            return;
+        };
+        assert!(found.over_own_limit().unwrap() > 1.0 && found.sound_step.unwrap() >= 4, "{found}");
+        share = found.holds().unwrap() / limit(&stretched);
+    }
+    panic!("no step holds, not even {share} of the lattice's limit");
 }
 
 /// Every calibrated lattice has positive weights, so that the lattice's limit holds in all its free bodies. The factors of bonds along

@@ -35,7 +35,8 @@ impl Diverged {
         self.own_limit.map(|limit| self.record.plan.time_step_s / limit)
     }
 
-    /// The largest time step in s that holds here and that a plan allows.
+    /// The largest time step in s that holds here and that a plan allows; with finite rotations it holds at the strains of
+    /// the last sound look, and may have to be lowered again for those to come.
     pub fn holds(&self) -> Option<f64> {
         let plan = &self.record.plan;
         self.own_limit.map(|limit| (HOLDS * limit).min(plan.time_step_s / plan.time_step_over_limit))

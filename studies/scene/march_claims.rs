@@ -136,7 +136,9 @@ pub fn evidence(case: &March, records: &[&Record], subject: &dyn Subject) -> Vec
 pub fn why(case: &March, failure: &Failure) -> String {
     let grew = matches!(failure, Failure::Diverged(_));
     let advice = match grew && !is_linear(case) && !above_limit(case) {
-        true => "; the lattice's limit is that of small rotations, which tension lowers",
+        true => {
+            "; the lattice's limit is that of small rotations, which tension lowers, and tension to come may lower the body's own further"
+        }
         false => "",
     };
     format!("{failure}{advice}")
