@@ -33,7 +33,8 @@ impl Output {
         };
         for folder in folders {
             let path = root.join(folder);
-            if path.exists() && !is_ours(&path) && !is_empty(&path) {
+            // A link that leads nowhere is in the way too.
+            if path.symlink_metadata().is_ok() && !is_ours(&path) && !is_empty(&path) {
                 let message = format!(
                     "{} exists and is not a folder of results: it has no {MARK} of a run",
                     path.display()
@@ -75,8 +76,8 @@ impl Output {
             }
             let place = self.root.join(name);
             let kept = old.is_some() && !place.exists() && fs::rename(entry.path(), place).is_ok();
-            if !kept && fs::remove_dir_all(entry.path()).is_err() {
-                let _ = fs::remove_file(entry.path());
+            if !kept {
+                clear(&entry.path());
             }
         }
     }
@@ -105,7 +106,7 @@ impl Output {
             let _ = fs::remove_dir_all(&partial);
             return Err(error);
         }
-        let _ = fs::remove_dir_all(&old);
+        clear(&old);
         Ok(place)
     }
 
@@ -118,6 +119,13 @@ impl Output {
             let _ = fs::remove_file(&partial);
         }
         written.map(|()| place)
+    }
+}
+
+/// Removes a folder, or a file, or a link and not what it leads to.
+fn clear(path: &Path) {
+    if fs::remove_dir_all(path).is_err() {
+        let _ = fs::remove_file(path);
     }
 }
 
@@ -158,7 +166,24 @@ mod tests {
         assert!(root.path().join("b/thesis.tex").exists());
     }
 
+    #[cfg(unix)]
+    #[test]
+    fn links_are_replaced_and_what_they_lead_to_is_left_alone() {
+        let (root, other) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        fs::write(other.path().join(MARK), r#"{"studies": [], "rustc": ""}"#).unwrap();
+        std::os::unix::fs::symlink(other.path(), root.path().join("a")).unwrap();
+        std::os::unix::fs::symlink("nowhere", root.path().join("b")).unwrap();
+        let output = Output::open(root.path(), &["a".into()]).unwrap();
+        output.replace_folder("a", &[Attachment::text("x.csv", "1")]).unwrap();
+        assert!(root.path().join("a/x.csv").exists() && other.path().join(MARK).exists());
+        assert!(!other.path().join("x.csv").exists());
+        let names = fs::read_dir(root.path()).unwrap().map(|entry| entry.unwrap().file_name());
+        assert_eq!(names.filter(|name| name.to_string_lossy().starts_with('.')).count(), 0);
+        assert!(Output::open(root.path(), &["b".into()]).is_err());
+    }
+
     /// No process has a number as large as 2²²; this one is running.
+    #[cfg(target_os = "linux")]
     #[test]
     fn what_killed_runs_left_is_cleared_away_or_put_back() {
         let root = tempfile::tempdir().unwrap();

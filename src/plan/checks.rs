@@ -18,8 +18,8 @@ const MAX_CUT_NODES: usize = 1 << 26;
 const MAX_CUT_PAIRS: f64 = 1e9;
 
 /// Visits of nodes by which holes and effects are laid out; an effect keeps what it finds, and counts as several.
-const MAX_PLANNED: f64 = (1 << 30) as f64;
-const EFFECT: usize = 8;
+const MAX_PLANNED: f64 = (1_u64 << 31) as f64;
+const EFFECT: usize = 4;
 
 /// What one run may hold of patches: more is a slip of the pen.
 const MAX_PATCH_BYTES: u64 = 4 << 30;

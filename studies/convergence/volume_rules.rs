@@ -78,7 +78,7 @@ impl Asked for VolumeRulesAsked {
             return Err(Wrong::new("body", "a bar has no rim to be irregular", help));
         }
         let [first, last] = self.m;
-        if first < SMALLEST || last < 8 * first || last > LARGEST {
+        if first < SMALLEST || first > last / 8 || last > LARGEST {
             let message = format!("m from {first} to {last} shows no law of large m");
             let help = format!(
                 "take m = [first, last], from {SMALLEST} or more to {LARGEST} or less, 8 apart or more"
