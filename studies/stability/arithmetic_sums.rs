@@ -158,7 +158,8 @@ pub fn kernels(subject: &dyn Subject, decades: u32) -> Sum {
             let of = reference_kernel(kernel);
             let code = |body| subject.micromodulus(body, kernel, 1.0, 1.0, 1.0);
             let bar = off(code(Body::Bar), reference::micromodulus::bar(of, 1.0, 1.0, 1.0));
-            bar.max(off(code(Body::PlaneStress), reference::micromodulus::plane_stress(of, 1.0, 1.0, 1.0)))
+            let plate = reference::micromodulus::plane_stress(of, 1.0, 1.0, 1.0);
+            worst([bar, off(code(Body::PlaneStress), plate)])
         });
         let of = reference_kernel(gaussian);
         let bar = 2.0 * p * p / (1.0 - libm::exp(-p * p));
