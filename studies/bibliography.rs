@@ -1,7 +1,18 @@
 //! The publications that claims cite, as BibTeX. Only what is known for certain is filled in.
 
 /// What a citation contains, and its entry.
-const ENTRIES: [(&str, &str); 14] = [
+const ENTRIES: [(&str, &str); 15] = [
+    (
+        "Hairer, Nørsett & Wanner 1993",
+        "@book{hairernorsettwanner1993,
+  author    = {Hairer, Ernst and N{\\o}rsett, Syvert P. and Wanner, Gerhard},
+  title     = {Solving Ordinary Differential Equations I: Nonstiff Problems},
+  edition   = {2},
+  publisher = {Springer},
+  year      = {1993}
+}
+",
+    ),
     (
         "Higham & Mary 2019",
         "@article{highammary2019,

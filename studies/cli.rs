@@ -94,7 +94,7 @@ pub enum Command {
     },
     /// How fast bodies are marched, beside what the machine can do: the whole suite, or one plate
     Bench(BenchOptions),
-    /// What accuracy costs: the cheapest settings whose waves are as accurate as asked, or the spacing of a scene of your own
+    /// What accuracy costs: the shipped studies, or the files given; with --advise the cheapest settings for an error, with --error or --budget a scene of your own
     Cost(CostOptions),
     /// The JSON schema of study files
     Schema,
@@ -169,24 +169,34 @@ pub struct BenchOptions {
 /// Options of `cost`.
 #[derive(Debug, Clone, Args)]
 pub struct CostOptions {
-    /// A study file of kind "scene": with --error the coarsest spacing that is as accurate, with --budget the finest that is
-    /// as quick; it is marched
-    pub scene: Option<PathBuf>,
-    /// Search kernels, m, volume rules and calibrations of plates
-    #[arg(long, conflicts_with_all = ["scene", "budget", "case"], requires_all = ["error", "wavelength"])]
+    /// Study files; none means the shipped studies
+    pub files: Vec<PathBuf>,
+    /// Search kernels, m, volume rules and calibrations of plates; the answer goes to advice/
+    #[arg(long, requires_all = ["error", "wavelength"], conflicts_with_all = ["files", "profile", "set", "budget", "case"])]
     pub advise: bool,
-    /// Largest phase error, worst over directions and both branches; of a scene the largest of what its probes see, root mean
-    /// square over time over the largest size: 0.01 is one per cent
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    /// Largest phase error, worst over directions and both branches, 0.01 is one per cent; with a study of kind "scene" in place of
+    /// --advise: the coarsest spacing at which what its probes see is as accurate, root mean square over time over the largest size
+    #[arg(long, value_name = "E", conflicts_with_all = ["profile", "set"], allow_negative_numbers = true)]
     pub error: Option<f64>,
-    /// Seconds that the scene may take
-    #[arg(long, value_name = "SECONDS", conflicts_with = "error", allow_negative_numbers = true)]
+    /// With a study of kind "scene": the finest spacing that so many seconds afford
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        conflicts_with_all = ["error", "profile", "set"],
+        allow_negative_numbers = true
+    )]
     pub budget: Option<f64>,
     /// Which case of the scene study, if it has several
     #[arg(long, value_name = "ID")]
     pub case: Option<String>,
     /// Length of the shortest waves that matter, in m
-    #[arg(long, value_name = "L", conflicts_with_all = ["scene", "budget"], allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "L",
+        requires = "advise",
+        conflicts_with_all = ["files", "budget"],
+        allow_negative_numbers = true
+    )]
     pub wavelength: Option<f64>,
     /// Settings of at least this m only
     #[arg(
@@ -198,20 +208,16 @@ pub struct CostOptions {
     )]
     pub min_m: Option<f64>,
     /// Settings of this horizon only, in m
-    #[arg(long, value_name = "H", conflicts_with_all = ["scene", "budget"], allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", requires = "advise", allow_negative_numbers = true)]
     pub horizon: Option<f64>,
     /// Dilatational speed of the plate in m/s; that of steel in plane stress if not given
-    #[arg(long, value_name = "C", conflicts_with_all = ["scene", "budget"], allow_negative_numbers = true)]
+    #[arg(long, value_name = "C", requires = "advise", allow_negative_numbers = true)]
     pub speed: Option<f64>,
-    /// Threads to use; results do not depend on it
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
-    /// Machine-readable
+    /// Machine-readable, with --advise, --error or --budget
     #[arg(long)]
     pub json: bool,
-    /// Folder of the results, which go to advice/, of a scene to its id with -cost behind
-    #[arg(long, value_name = "DIR", default_value = "reports")]
-    pub out: PathBuf,
+    #[command(flatten)]
+    pub run: RunOptions,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -246,6 +252,11 @@ impl Isa {
             Self::Avx2 => InstructionSet::Avx2,
             Self::Avx512 => InstructionSet::Avx512,
         }
+    }
+
+    /// The best that this processor has.
+    pub fn best() -> Self {
+        [Self::Avx512, Self::Avx2].into_iter().find(|isa| isa.is_here()).unwrap_or(Self::Baseline)
     }
 
     /// Whether this processor has it.

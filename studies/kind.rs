@@ -3,7 +3,7 @@
 use crate::input::{Refusal, nearest};
 use crate::question::Question;
 use crate::written::{Word, Written};
-use crate::{bar, convergence, dispersion, dsif, scene, stability};
+use crate::{bar, convergence, cost, dispersion, dsif, scene, stability};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -21,13 +21,22 @@ pub enum Kind {
     Dsif,
     /// Cases that break codes: time steps at and beyond the limit.
     Stability,
+    /// Errors against work and time.
+    Cost,
     /// A scene of one's own, marched in time.
     Scene,
 }
 
 impl Kind {
-    pub const ALL: [Self; 6] =
-        [Self::Dispersion, Self::Bar, Self::Convergence, Self::Dsif, Self::Stability, Self::Scene];
+    pub const ALL: [Self; 7] = [
+        Self::Dispersion,
+        Self::Bar,
+        Self::Convergence,
+        Self::Dsif,
+        Self::Stability,
+        Self::Cost,
+        Self::Scene,
+    ];
 
     /// The word in study files; also the command and the folder of the shipped studies.
     pub fn word(self) -> &'static str {
@@ -37,6 +46,7 @@ impl Kind {
             Self::Convergence => "convergence",
             Self::Dsif => "dsif",
             Self::Stability => "stability",
+            Self::Cost => "cost",
             Self::Scene => "scene",
         }
     }
@@ -49,6 +59,7 @@ impl Kind {
             Self::Convergence => convergence::WORDS,
             Self::Dsif => dsif::WORDS,
             Self::Stability => stability::WORDS,
+            Self::Cost => cost::WORDS,
             Self::Scene => scene::WORDS,
         }
     }
@@ -61,6 +72,7 @@ impl Kind {
             Self::Convergence => convergence::TABLES,
             Self::Dsif => dsif::TABLES,
             Self::Stability => stability::TABLES,
+            Self::Cost => cost::TABLES,
             Self::Scene => scene::TABLES,
         }
     }
@@ -73,6 +85,7 @@ impl Kind {
             Self::Convergence => convergence::SUFFIXES,
             Self::Dsif => dsif::SUFFIXES,
             Self::Stability => stability::SUFFIXES,
+            Self::Cost => cost::SUFFIXES,
             Self::Scene => &[],
         }
     }

@@ -30,6 +30,10 @@ pub const SHIPPED: &[(&str, &str)] = &[
     ("studies/stability/long_run.toml", include_str!("stability/long_run.toml")),
     ("studies/stability/rotation.toml", include_str!("stability/rotation.toml")),
     ("studies/stability/scaling.toml", include_str!("stability/scaling.toml")),
+    ("studies/cost/bar.toml", include_str!("cost/bar.toml")),
+    ("studies/cost/plate.toml", include_str!("cost/plate.toml")),
+    ("studies/cost/crack.toml", include_str!("cost/crack.toml")),
+    ("studies/cost/ablation.toml", include_str!("cost/ablation.toml")),
 ];
 
 /// All shipped studies of a kind (or all), with `--set` changes; a setting that no study has a place for is refused.
@@ -129,6 +133,9 @@ mod tests {
         // 20 s; small bodies are mostly edge, whose nodes go bond by bond: some 4·10⁸ bonds a second.
         let marched = effort(Kind::Stability);
         assert!(marched.node_updates > 0 && marched.bond_evaluations < 8_000_000_000, "{marched:?}");
+        // 40 s, each body marched up to ten times.
+        let priced = effort(Kind::Cost);
+        assert!(priced.node_updates > 0 && priced.node_updates < 600_000_000, "{priced:?}");
     }
 
     #[test]

@@ -18,6 +18,7 @@ use pd_verify::lattice::{Lattice, Stencil, Unusable};
 use pd_verify::material::Body;
 use pd_verify::micromodulus;
 use pd_verify::model::Model;
+use pd_verify::plan::time::Costs;
 use pd_verify::record::{self, Failure, Record};
 use pd_verify::scene::Scene;
 use pd_verify::statics;
@@ -173,6 +174,11 @@ pub trait Subject: Sync {
         bar.fourier_displacement(x, t, terms)
     }
 
+    /// What nodes cost on this machine, where marches are to be timed.
+    fn costs(&self) -> Option<&Costs> {
+        None
+    }
+
     /// What a joint sends back of the left chain's wave.
     fn reflection(&self, left: &Chain, right: &Chain, theta: f64) -> Option<Complex<f64>> {
         joint::exact(left, right, theta)
@@ -223,3 +229,12 @@ fn nodes<const D: usize>(model: &Model<D>, field: &[f64]) -> Vec<[f64; D]> {
 pub struct PdVerify;
 
 impl Subject for PdVerify {}
+
+/// The same, whose marches are timed.
+pub struct Timed(pub Costs);
+
+impl Subject for Timed {
+    fn costs(&self) -> Option<&Costs> {
+        Some(&self.0)
+    }
+}

@@ -1,5 +1,6 @@
 //! Measured against expected: errors as norms, never signed sums; orders with their sign.
 
+pub mod frontier;
 pub mod order;
 pub mod richardson;
 

@@ -112,6 +112,21 @@ pub fn suite(threads: usize) -> Vec<Group> {
     groups
 }
 
+/// The least of which costs can be taken: sizes, families, nodes that lack bonds, lists, loads, bars.
+pub fn short_suite() -> Vec<Group> {
+    let kept = |group: Group, names: &[&str]| {
+        let kept = |case: &Case| names.contains(&case.name.as_str());
+        let cases = group.cases.iter().enumerate().filter(|(at, case)| *at == 0 || kept(case));
+        Group { cases: cases.map(|(_, case)| case.clone()).collect(), ..group }
+    };
+    vec![
+        kept(sizes(), &["16²", "64²", "256²"]),
+        kept(families(), &["m = 2", "m = 5", "m = 10"]),
+        kept(effects(), &["all masked, strips", "damping", "body force", "bonds as a list"]),
+        kept(bars(), &["100", "4000", "10⁵", "m = 10", "body force"]),
+    ]
+}
+
 fn reference() -> Case {
     Case::new(format!("{SIDE}², m = {M}"), plain())
 }
@@ -218,5 +233,7 @@ mod tests {
             assert!(names.len() == group.cases.len() && names.len() > 1, "{}", group.name);
         }
         assert_eq!(suite(1).len() + 2, suite(2).len());
+        let counts: Vec<usize> = short_suite().iter().map(|group| group.cases.len()).collect();
+        assert_eq!(counts, [4, 4, 5, 6]);
     }
 }

@@ -38,6 +38,17 @@ const TRIES: usize = 20;
 const LEAST: f64 = 0.004;
 
 impl Limits {
+    /// Of a machine that was not asked.
+    pub fn unknown(threads: usize) -> Self {
+        Self {
+            threads,
+            triad_gbyte_per_s: f64::NAN,
+            triad_cache_gbyte_per_s: f64::NAN,
+            triad_by_bytes: Vec::new(),
+            fma_gflop_per_s: f64::NAN,
+        }
+    }
+
     /// Measures them on the threads of the present pool.
     pub fn measure(isa: Isa) -> Self {
         let threads = rayon::current_num_threads();

@@ -12,5 +12,6 @@ pub mod limits;
 pub mod measure;
 pub mod memory;
 pub mod rates;
+pub mod short;
 pub mod text;
 mod triad;

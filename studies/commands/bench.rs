@@ -1,6 +1,6 @@
 //! `pd-verify bench`: the whole suite of speeds, or one case, beside the machine's own limits.
 
-use super::judge::End;
+use super::judge::{End, pools};
 use super::{folder, say};
 use crate::attachment::Attachment;
 use crate::bench::cases::{Case, Group, M, SIDE, suite};
@@ -8,7 +8,7 @@ use crate::bench::forecast::forecasts;
 use crate::bench::growth::growths;
 use crate::bench::kept::{FOLDER, Suite, one};
 use crate::bench::limits::Limits;
-use crate::bench::measure::{Failure, Measured, Pace, Pools, measure};
+use crate::bench::measure::{Failure, Measured, Pace, measure};
 use crate::bench::rates::Rates;
 use crate::bench::{bodies, costs, figures, memory, text};
 use crate::cli::{BenchOptions, BondOperator, Isa};
@@ -53,17 +53,8 @@ fn instruction_set(asked: Option<Isa>) -> Result<Isa, Refusal> {
                 .help("leave --isa out to use the best that is here"))
         }
         Some(isa) => Ok(isa),
-        None => Ok([Isa::Avx512, Isa::Avx2].into_iter().find(|isa| isa.is_here()).unwrap_or(Isa::Baseline)),
+        None => Ok(Isa::best()),
     }
-}
-
-fn pools(options: &BenchOptions) -> Result<Pools, Refusal> {
-    let pool = |threads: usize| {
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|error| {
-            Refusal::new(format!("cannot start threads: {error}")).help("take fewer with --threads")
-        })
-    };
-    Ok(Pools { all: pool(options.threads.map_or(0, usize::from))?, one: pool(1)? })
 }
 
 /// The plate that is asked for, refused before anything large is made.
@@ -98,7 +89,7 @@ fn case(options: &BenchOptions) -> Result<Case, Refusal> {
 }
 
 fn one_case(case: Case, isa: Isa, options: &BenchOptions) -> Result<u8, Refusal> {
-    let pools = pools(options)?;
+    let pools = pools(options.threads)?;
     let limits = pools.all.install(|| Limits::measure(isa));
     // Steps that are given are run once.
     let pace = match options.steps {
@@ -120,7 +111,7 @@ fn one_case(case: Case, isa: Isa, options: &BenchOptions) -> Result<u8, Refusal>
 }
 
 fn whole_suite(isa: Isa, options: &BenchOptions, output: &Output) -> Result<u8, Refusal> {
-    let pools = pools(options)?;
+    let pools = pools(options.threads)?;
     let threads = pools.all.current_num_threads();
     let groups = suite(threads);
     let progress = Progress::new(groups.len() + 2, !options.no_progress);

@@ -1,6 +1,6 @@
 //! `pd-verify cost --error X SCENE` and `--budget S SCENE`: what accuracy costs in a scene of one's own.
 
-use super::judge::End;
+use super::judge::{self, End};
 use super::{find, folder, say};
 use crate::attachment::Attachment;
 use crate::bench::{kept, memory};
@@ -21,19 +21,23 @@ use std::time::Instant;
 pub fn cost_scene(options: &CostOptions, scene: &Path) -> Result<u8, Refusal> {
     let goal = goal(options)?;
     let own = Own::new(find::file(&scene.display().to_string())?, options.case.as_deref())?;
-    let kept = kept::read(&options.out)?;
+    if let Some(isa) = options.run.isa {
+        if !isa.is_here() {
+            return Err(Refusal::new(format!("this processor does not have --isa {}", isa.word()))
+                .help("leave --isa out to use the best that is here"));
+        }
+        isa.pin();
+    }
+    let kept = kept::read(&options.run.out)?;
     let folder = format!("{}-cost", own.id());
-    let output = Output::open(&options.out, std::slice::from_ref(&folder))?;
+    let output = Output::open(&options.run.out, std::slice::from_ref(&folder))?;
     let machine = Machine {
         march: &timed,
         costs: kept.as_ref().map(|kept| &kept.costs),
         memory: memory::available().unwrap_or(f64::INFINITY),
         stop: &interrupted,
     };
-    let pool =
-        rayon::ThreadPoolBuilder::new().num_threads(options.threads.map_or(0, usize::from)).build().map_err(
-            |error| Refusal::new(format!("cannot start threads: {error}")).help("take fewer with --threads"),
-        )?;
+    let pool = judge::threads(options.run.threads)?;
     let found = match pool.install(|| search(&own, goal, &machine)) {
         Ok(found) => found,
         Err(stopped) => return Ok(stop(stopped)),
@@ -43,7 +47,7 @@ pub fn cost_scene(options: &CostOptions, scene: &Path) -> Result<u8, Refusal> {
     let files =
         vec![Attachment::text("cost.json", data.clone()), Attachment::text(table.file.clone(), table.csv())];
     let figures: Vec<_> = figure::figure(&found, &own.name()).into_iter().collect();
-    let mut problems = folder::write(&output, &folder, None, files, &figures);
+    let mut problems = folder::write(&output, &folder, options.run.isa, files, &figures);
     let shown = if options.json { data } else { report::text(&own, &found) };
     if let Err(error) = say(&shown) {
         problems.push(format!("cannot print: {error}"));

@@ -2,6 +2,8 @@
 
 use super::say;
 use crate::attachment::Attachment;
+use crate::bench::measure::Pools;
+use crate::bench::short;
 use crate::cli::RunOptions;
 use crate::input::{MAX_BYTES, Refusal, Setting};
 use crate::kind::Kind;
@@ -11,7 +13,8 @@ use crate::progress::Progress;
 use crate::run::{Ran, merge, run};
 use crate::shipped::{commands, refuse_unused, shipped};
 use crate::study::Study;
-use crate::subject::PdVerify;
+use crate::subject::{PdVerify, Subject, Timed};
+use pd_verify::plan::time::Costs;
 use pd_verify::report::{
     Drawn, RunSummary, StudyReport, figure_table, index_html, junit_xml, summary_markdown, terminal_table,
     verdicts_csv,
@@ -146,12 +149,28 @@ fn compute(groups: Vec<Group>, options: &RunOptions) -> Result<End, Refusal> {
     check_work(&groups, options)?;
     let folders: Vec<String> = groups.iter().map(|group| group.folder.clone()).collect();
     let output = Output::open(&options.out, &folders)?;
-    let threads = options.threads.map_or(0, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| {
+    let pool = threads(options.threads)?;
+    let costs = costs(&groups, options)?;
+    pool.install(|| Ok(compute_and_write(&groups, options, costs, &output)))
+}
+
+/// The threads that were asked for, all if none were.
+pub fn threads(count: Option<u16>) -> Result<rayon::ThreadPool, Refusal> {
+    let count = count.map_or(0, usize::from);
+    rayon::ThreadPoolBuilder::new().num_threads(count).build().map_err(|error| {
         Refusal::new(format!("cannot start threads: {error}")).help("take fewer with --threads")
-    })?;
-    pool.install(|| Ok(compute_and_write(&groups, options, &output)))
+    })
+}
+
+/// The same, and one alone, for what is measured.
+pub fn pools(count: Option<u16>) -> Result<Pools, Refusal> {
+    Ok(Pools { all: threads(count)?, one: threads(Some(1))? })
+}
+
+/// What nodes cost on this machine, where a study asks what accuracy costs.
+fn costs(groups: &[Group], options: &RunOptions) -> Result<Option<Costs>, Refusal> {
+    let asked = groups.iter().flat_map(|group| &group.studies).any(|study| study.kind == Kind::Cost);
+    if asked { short::costs(options, &pools(options.threads)?).map(Some) } else { Ok(None) }
 }
 
 /// More than this many visits of a bond are hours of work; nobody means that.
@@ -172,7 +191,9 @@ fn check_work(groups: &[Group], options: &RunOptions) -> Result<(), Refusal> {
     Ok(())
 }
 
-fn compute_and_write(groups: &[Group], options: &RunOptions, output: &Output) -> End {
+fn compute_and_write(groups: &[Group], options: &RunOptions, costs: Option<Costs>, output: &Output) -> End {
+    let timed = costs.map(Timed);
+    let subject: &dyn Subject = timed.as_ref().map_or(&PdVerify, |timed| timed);
     let cases = groups.iter().flat_map(|group| &group.studies).map(|study| study.cases.len()).sum();
     let progress = Progress::new(cases, !options.quiet && !options.no_progress);
     let mut reports = Vec::new();
@@ -181,7 +202,7 @@ fn compute_and_write(groups: &[Group], options: &RunOptions, output: &Output) ->
     let (mut failed, mut unfinished) = (false, false);
     for group in groups {
         let ran: Vec<Ran> =
-            group.studies.iter().map(|study| run(study, options.profile, &PdVerify, &progress)).collect();
+            group.studies.iter().map(|study| run(study, options.profile, subject, &progress)).collect();
         failed |= ran.iter().any(|ran| ran.failed);
         unfinished |= ran.iter().zip(&group.studies).any(|(ran, study)| ran.finished < study.cases.len());
         if ran.iter().all(|ran| ran.finished == 0) {

@@ -13,7 +13,7 @@ pub mod pulse;
 pub mod refined;
 mod refined_report;
 pub mod rest;
-mod space;
+pub mod space;
 pub mod surface;
 mod surface_report;
 mod theory;

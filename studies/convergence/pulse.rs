@@ -42,19 +42,21 @@ pub struct PointPulseAsked {
 /// The pulse, whatever carries it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointPulse {
-    material: Material,
-    body: Body,
+    pub material: Material,
+    pub body: Body,
     pub side: f64,
     pub width: f64,
-    travel: f64,
-    safety: f64,
+    /// Of a local P wave, over the side.
+    pub travel: f64,
+    /// Δt over the limit.
+    pub safety: f64,
 }
 
 /// A march of the pulse.
 #[derive(Debug, Clone)]
 pub struct Marched<const D: usize> {
-    scene: Scene<D>,
-    plan: Plan,
+    pub scene: Scene<D>,
+    pub plan: Plan,
 }
 
 /// Its height in m; the body is linear, so that it is of no account.
@@ -73,18 +75,9 @@ impl Asked for PointPulseAsked {
             travel: self.travel.map_or(0.3, |travel| travel.0),
             safety: self.safety.map_or(0.5, |safety| safety.0),
         };
-        // The nearest image is a side away: exp(−144) of it; half a side away exp(−36).
-        if pulse.width > pulse.side / 12.0 {
-            let message =
-                format!("a pulse {} m wide reaches beyond its period of {} m", pulse.width, pulse.side);
-            return Err(Wrong::new("width_m", message, "take at most a twelfth of side_m"));
-        }
         let sequences = self.path.sequences(body, &self.weights)?;
         let coarsest = sequences.iter().map(|one| one.levels[0].spacing).fold(0.0, f64::max);
-        if pulse.width < 2.0 * coarsest {
-            let message = format!("a pulse {} m wide falls between nodes {coarsest} m apart", pulse.width);
-            return Err(Wrong::new("width_m", message, "take at least twice the coarsest dx"));
-        }
+        pulse.check(coarsest)?;
         Ok(match body {
             Body::Bar => Box::new(Refined::<1, _>::new(written.title, pulse, sequences, PointPulse::ready)?),
             _ => Box::new(Refined::<2, _>::new(written.title, pulse, sequences, PointPulse::ready)?),
@@ -93,7 +86,23 @@ impl Asked for PointPulseAsked {
 }
 
 impl PointPulse {
-    fn ready<const D: usize>(&self, sequence: &Sequence) -> Result<Vec<Marched<D>>, Wrong>
+    /// Refuses a pulse that meets its images, or that falls between nodes this far apart.
+    pub fn check(&self, coarsest: f64) -> Result<(), Wrong> {
+        // The nearest image is a side away: exp(−144) of it; half a side away exp(−36).
+        if self.width > self.side / 12.0 {
+            let message =
+                format!("a pulse {} m wide reaches beyond its period of {} m", self.width, self.side);
+            return Err(Wrong::new("width_m", message, "take at most a twelfth of side_m"));
+        }
+        if self.width < 2.0 * coarsest {
+            let message = format!("a pulse {} m wide falls between nodes {coarsest} m apart", self.width);
+            return Err(Wrong::new("width_m", message, "take at least twice the coarsest dx"));
+        }
+        Ok(())
+    }
+
+    /// The marches of all levels.
+    pub fn ready<const D: usize>(&self, sequence: &Sequence) -> Result<Vec<Marched<D>>, Wrong>
     where
         In: Space<D>,
     {

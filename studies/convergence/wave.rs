@@ -140,7 +140,7 @@ where
     In: Space<D>,
 {
     /// The same with the length that whole cells allow nearest to the one asked for.
-    fn fitting(self, sequences: &[Sequence]) -> Result<Self, Wrong> {
+    pub fn fitting(self, sequences: &[Sequence]) -> Result<Self, Wrong> {
         let Some(first) = sequences.first() else { return Ok(self) };
         let (wavenumber, _) = self.shape(first, first.levels[0])?;
         let length = wavenumber.iter().map(|k| k * k).sum::<f64>().sqrt();

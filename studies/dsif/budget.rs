@@ -99,6 +99,7 @@ impl Asked for BudgetAsked {
         };
         let step = |lateral: LateralName, calibrated: bool| {
             let asked = IntensityAsked {
+                safety: None,
                 plate: PlateAsked { lateral: Some(lateral), ..self.plate.clone() },
                 load: self.load.clone(),
                 known: self.known.clone(),

@@ -8,10 +8,10 @@ use super::known::{Known, KnownAsked, Window, WindowAsked, holds_until};
 use super::load::{Load, LoadAsked, On};
 use super::plate::PlateAsked;
 use super::said::{check_levels, check_name};
-use super::setup::{Problem, Seen, Setup};
+use super::setup::{Problem, SAFETY, Seen, Setup};
 use super::tips::Tips;
 use crate::bar::names;
-use crate::convergence::path::WeightsAsked;
+use crate::convergence::path::{Weights, WeightsAsked};
 use crate::input::OneOrMany;
 use crate::question::{Answer, Effort, Place, Planned, Question};
 use crate::subject::Subject;
@@ -49,6 +49,8 @@ pub struct IntensityAsked {
     /// δ in m instead: each m is a level.
     pub horizon_m: Option<Positive>,
     pub weights: WeightsAsked,
+    /// Time step over the limit; default 0.9.
+    pub safety: Option<Positive>,
     pub extraction: Vec<ExtractionAsked>,
     #[serde(default)]
     pub expect: Vec<ExpectAsked>,
@@ -118,6 +120,13 @@ impl Asked for IntensityAsked {
     type Question = Intensity;
 
     fn check(&self, written: &Written<'_>) -> Result<Intensity, Wrong> {
+        self.weighed(written, &self.weights.all().map_err(|wrong| wrong.inside("weights"))?)
+    }
+}
+
+impl IntensityAsked {
+    /// The case with these weights in place of its own.
+    pub fn weighed(&self, written: &Written<'_>, weights: &[Weights]) -> Result<Intensity, Wrong> {
         let (material, body) = (written.material()?, self.plate.body.into());
         let load = self.load.check(self.plate.lateral.unwrap_or_default())?;
         let known = self.known.check((material, body), &self.plate, &load)?;
@@ -134,12 +143,17 @@ impl Asked for IntensityAsked {
             }
         }
         let window = self.window.check(&known, last)?;
-        let problem =
-            Problem { material, body, plate: self.plate.clone(), load: load.clone(), until: window.to };
+        let problem = Problem {
+            material,
+            body,
+            plate: self.plate.clone(),
+            load: load.clone(),
+            until: window.to,
+            safety: self.safety.map_or(SAFETY, |safety| safety.0),
+        };
         let mut tracks = Vec::new();
-        let weights = self.weights.all().map_err(|wrong| wrong.inside("weights"))?;
         for levels in &levels {
-            for weights in &weights {
+            for weights in weights {
                 let mut setups: Vec<Setup> = Vec::new();
                 for &(m, dx) in levels {
                     let same = setups.last().filter(|before| before.lattice.m == m).map(Setup::limit);
@@ -270,7 +284,13 @@ impl Intensity {
         Ok(Found { reads: reads.collect(), field })
     }
 
-    fn read(&self, subject: &dyn Subject, setup: &Setup, tips: &Tips) -> Result<(Vec<Read>, Seen), String> {
+    /// Marches one lattice and reads K in every way.
+    pub fn read(
+        &self,
+        subject: &dyn Subject,
+        setup: &Setup,
+        tips: &Tips,
+    ) -> Result<(Vec<Read>, Seen), String> {
         let seen = setup.march(subject)?;
         let mut reads = Vec::new();
         for extraction in &self.extractions {

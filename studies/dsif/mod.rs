@@ -1,25 +1,25 @@
 //! Dynamic stress intensity factors: plates with a crack, marched, read at the tip, held against exact histories.
 
 pub mod budget;
-mod errors;
+pub mod errors;
 mod expect;
-mod extraction;
+pub mod extraction;
 pub mod intensity;
 mod intensity_report;
-mod known;
-mod load;
-mod plate;
+pub mod known;
+pub mod load;
+pub mod plate;
 pub mod running;
 mod running_report;
 mod runs;
 mod said;
 pub mod sensitivity;
-mod setup;
+pub mod setup;
 mod smooth;
 mod tip;
 pub mod tip_factor;
 mod tip_factor_report;
-mod tips;
+pub mod tips;
 
 use crate::written::Word;
 

@@ -7,7 +7,7 @@ use super::plate::{CrackPlace, PlateAsked};
 use super::running_report as report;
 use super::runs::{Run, Way, check_speeds};
 use super::said::{check_levels, check_reason};
-use super::setup::{Problem, Seen, Setup};
+use super::setup::{Problem, SAFETY, Seen, Setup};
 use super::smooth::smooth;
 use crate::convergence::path::WeightsAsked;
 use crate::input::OneOrMany;
@@ -143,7 +143,8 @@ impl Asked for RunningAsked {
                 return Err(Wrong::new("to_arrivals", message, "end earlier, or take a larger plate"));
             }
         }
-        let problem = Problem { material, body, plate: self.plate.clone(), load: load.clone(), until };
+        let problem =
+            Problem { material, body, plate: self.plate.clone(), load: load.clone(), until, safety: SAFETY };
         let outer = self.outer_horizons.map_or(3.0, |outer| outer.0);
         if outer <= 2.0 {
             let message = format!("no annulus lies between 2 and {outer} horizons");

@@ -130,6 +130,7 @@ impl Asked for SensitivityAsked {
             }
         }
         let asked = IntensityAsked {
+            safety: None,
             plate: self.plate.clone(),
             load: self.load.clone(),
             known: self.known.clone(),

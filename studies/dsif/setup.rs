@@ -20,6 +20,8 @@ pub struct Problem {
     pub load: Load,
     /// When the march ends, in s after the nominal start of the load.
     pub until: f64,
+    /// Δt over the lattice's limit.
+    pub safety: f64,
 }
 
 /// A plate on one lattice, ready to march.
@@ -34,8 +36,8 @@ pub struct Setup {
     load: Load,
 }
 
-/// The part of the lattice's limit on Δt that is taken: leapfrog disperses least near the limit.
-const OF_LIMIT: f64 = 0.9;
+/// The part of the lattice's limit on Δt that is taken by default: leapfrog disperses least near the limit.
+pub const SAFETY: f64 = 0.9;
 /// Looks at the tip over a march, about.
 const LOOKS: u64 = 400;
 /// Name of the probe.
@@ -76,7 +78,7 @@ impl Problem {
         let reach = extractions.iter().map(|one| one.reach(horizon, dx)).fold(around.max(4.0 * dx), f64::max);
         let size = plate.nodes.map(|count| count as f64 * dx);
         let box_ = [-reach, reach].map(|by| [0, 1].map(|axis| (plate.tip[axis] + by).clamp(0.0, size[axis])));
-        let time = Time { duration: self.until + self.load.before(), step: StepRule::OfLimit(OF_LIMIT) };
+        let time = Time { duration: self.until + self.load.before(), step: StepRule::OfLimit(self.safety) };
         let mut scene = Scene {
             edges: plate.edges(),
             notches: vec![plate.notch()],

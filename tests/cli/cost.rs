@@ -1,6 +1,6 @@
-//! `cost --advise`: what it finds, what it writes, what it refuses.
+//! `cost`: tables of work and precision; `cost --advise`: what it finds, what it writes, what it refuses.
 
-use crate::support::Place;
+use crate::support::{Place, rows};
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
 use serde_json::Value;
@@ -71,7 +71,7 @@ fn nothing_found_is_no_success() {
 fn what_cannot_be_is_refused_and_nothing_is_touched() {
     let place = Place::new();
     for (arguments, words) in [
-        (vec!["cost"], vec!["--advise"]),
+        (vec!["cost", "--error", "0.01"], vec!["--advise"]),
         (vec!["cost", "--advise", "--error", "0.01"], vec!["--wavelength"]),
         (vec!["cost", "--advise", "--error", "0", "--wavelength", "1"], vec!["--error 0", "--error 0.01"]),
         (vec!["cost", "--advise", "--error", "1", "--wavelength", "1"], vec!["one per cent"]),
@@ -95,5 +95,88 @@ fn what_cannot_be_is_refused_and_nothing_is_touched() {
         ),
     ] {
         place.refuses(&arguments, &words);
+    }
+}
+
+const PULSE: &str = r#"format = 1
+id = "my-pulse"
+kind = "cost"
+title = "A pulse in aluminium"
+material = { youngs_modulus_gpa = 70, density_kg_m3 = 2700 }
+[[case]]
+id = "pulse"
+asks = "pulse_cost"
+body = "bar"
+side_m = 2
+width_m = 0.1
+travel = 0.21
+[case.settings]
+m = [2, 3.4]
+dx_mm = [25, 12.5, 6.25]
+safety = [0.4, 0.8]
+finite_differences = true
+weights = { kernel = "gaussian", p = 1.7, volume_rule = "linear", calibrated = true }
+"#;
+
+/// Times differ from run to run, nothing else does; counts are cells times steps; on the frontier nothing is beaten.
+#[test]
+fn work_and_precision_of_a_study_of_ones_own() {
+    let place = Place::with_study(PULSE);
+    let tables: Vec<String> = ["1", "2"]
+        .map(|threads| {
+            let out = format!("out-{threads}");
+            place.run(&["cost", "study.toml", "--strict", "--threads", threads, "--out", &out]).code(0);
+            place.read(&format!("{out}/my-pulse/work_precision.csv"))
+        })
+        .to_vec();
+    assert!(tables[0].starts_with(
+        "case,method,kernel,p,m,dx_m,volume_rule,calibrated,courant,error,error_kind,seconds,node_updates,bond_updates,bytes_peak,on_frontier,"
+    ));
+    let [one, two] = [&tables[0], &tables[1]].map(|table| rows(table));
+    assert_eq!(one.len(), 3 * 2 * 3);
+    let number =
+        |row: &std::collections::BTreeMap<String, String>, key: &str| row[key].parse::<f64>().unwrap();
+    for (a, b) in one.iter().zip(&two) {
+        for key in
+            ["method", "m", "dx_m", "error", "node_updates", "bond_updates", "bytes_peak", "on_frontier"]
+        {
+            assert_eq!(a[key], b[key], "{key}");
+        }
+        assert!(number(a, "seconds") > 0.0 && number(a, "seconds_predicted") > 0.0);
+        let cells = 2.0 / number(a, "dx_m");
+        assert_eq!(number(a, "node_updates") % cells.round(), 0.0);
+        let beaten = one.iter().any(|other| {
+            number(other, "bond_updates") < number(a, "bond_updates")
+                && number(other, "error") < number(a, "error")
+        });
+        assert_eq!(a["on_frontier"] == "true", !beaten, "{a:?}");
+    }
+    let plain = one.iter().find(|row| row["method"] == "finite_differences").unwrap();
+    assert_eq!((plain["kernel"].as_str(), plain["m"].as_str()), ("", ""));
+    assert_eq!(plain["node_updates"], plain["bond_updates"]);
+    let cheapest = rows(&place.read("out-1/my-pulse/work_cheapest.csv"));
+    assert!(
+        cheapest
+            .iter()
+            .any(|row| row["error"] == "0.01" && row["by"] == "bond_updates" && !row["dx_m"].is_empty())
+    );
+}
+
+#[test]
+fn settings_that_cannot_be_are_refused_with_their_place() {
+    for (old, new, words) in [
+        (
+            "safety = [0.4, 0.8]",
+            "safety = [0.4, 1.0]",
+            vec!["study.toml:17", "no stable time step", "[0.1, 0.5, 0.95]"],
+        ),
+        ("dx_mm = [25, 12.5, 6.25]", "dx_mm = [25, 12.5]", vec!["study.toml:16", "three levels"]),
+        ("width_m = 0.1", "width_m = 0.4", vec!["study.toml:12", "twelfth of side_m"]),
+        ("body = \"bar\"", "body = \"plane_stress\"", vec!["finite differences are run in bars"]),
+        ("finite_differences", "finite_diferences", vec!["study.toml:18", "finite_differences"]),
+        ("m = [2, 3.4]", "m = [2, 0.3]", vec!["study.toml:15"]),
+    ] {
+        assert!(PULSE.contains(old));
+        Place::with_study(PULSE.replacen(old, new, 1)).refuses(&["cost", "study.toml"], &words);
     }
 }

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// Commands with shipped studies, and the folders of these.
-const KINDS: [&str; 5] = ["dispersion", "bar", "convergence", "dsif", "stability"];
+const KINDS: [&str; 6] = ["dispersion", "bar", "convergence", "dsif", "stability", "cost"];
 
 /// Name and text of every shipped study file.
 pub fn shipped() -> Vec<(String, String)> {

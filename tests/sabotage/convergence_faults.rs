@@ -43,9 +43,9 @@ pub fn all() -> Vec<(&'static str, Box<dyn Subject + Send>)> {
 }
 
 /// Marches, or brings to rest, another scene than the one asked for.
-struct OtherScene {
-    bar: fn(&mut Scene<1>),
-    plate: fn(&mut Scene<2>),
+pub struct OtherScene {
+    pub bar: fn(&mut Scene<1>),
+    pub plate: fn(&mut Scene<2>),
 }
 
 fn changed<const D: usize>(scene: &Scene<D>, change: fn(&mut Scene<D>)) -> Scene<D> {
@@ -76,11 +76,11 @@ impl Subject for OtherScene {
     }
 }
 
-fn printed<const D: usize>(scene: &mut Scene<D>) {
+pub fn printed<const D: usize>(scene: &mut Scene<D>) {
     scene.lattice.calibrated = false;
 }
 
-fn soft<const D: usize>(scene: &mut Scene<D>) {
+pub fn soft<const D: usize>(scene: &mut Scene<D>) {
     scene.material.youngs_modulus *= 0.9;
 }
 
@@ -102,7 +102,7 @@ fn longer_steps<const D: usize>(scene: &mut Scene<D>) {
 }
 
 /// Wrong by the first order in Δx.
-fn aside<const D: usize>(scene: &mut Scene<D>) {
+pub fn aside<const D: usize>(scene: &mut Scene<D>) {
     for initial in &mut scene.displacement {
         match &mut initial.shape {
             Shape::Gaussian { centre, .. } => centre[0] += 0.5 * scene.spacing,
@@ -137,7 +137,7 @@ fn other_mirrors<const D: usize>(scene: &mut Scene<D>) {
     }
 }
 
-fn soft_when_fine(scene: &mut Scene<2>) {
+pub fn soft_when_fine<const D: usize>(scene: &mut Scene<D>) {
     if scene.nodes[0] > 100 {
         soft(scene);
     }

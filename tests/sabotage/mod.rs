@@ -3,6 +3,7 @@
 
 mod bar_faults;
 mod convergence_faults;
+mod cost_faults;
 mod dsif_faults;
 mod faults;
 mod oracles;
@@ -64,6 +65,11 @@ fn every_fault_in_stability_is_caught_and_every_claim_about_it_can_fail() {
     check_where_it_is(Kind::Stability, &stability_faults::all());
 }
 
+#[test]
+fn every_fault_in_costs_is_caught_and_every_claim_about_them_can_fail() {
+    check_where_it_is(Kind::Cost, &cost_faults::all());
+}
+
 /// Runs the quick studies of a kind, each with the faults that have an ingredient there.
 fn check_where_it_is(kind: Kind, faults: &[dsif_faults::Fault]) {
     let studies = shipped(Some(kind), &[]).expect("the shipped studies are sound");
@@ -84,7 +90,7 @@ fn check_where_it_is(kind: Kind, faults: &[dsif_faults::Fault]) {
 /// The quick profile stands for the others where these would take too long.
 #[test]
 fn slow_cases_ask_nothing_that_the_quick_profile_does_not() {
-    for kind in [Kind::Convergence, Kind::Dsif, Kind::Stability] {
+    for kind in [Kind::Convergence, Kind::Dsif, Kind::Stability, Kind::Cost] {
         let studies = shipped(Some(kind), &[]).expect("the shipped studies are sound");
         let asked = |quick: bool| -> BTreeSet<String> {
             let cases = studies.iter().flat_map(|study| &study.cases);
