@@ -94,8 +94,7 @@ pub enum Command {
     },
     /// How fast bodies are marched, beside what the machine can do: the whole suite, or one plate
     Bench(BenchOptions),
-    /// What accuracy costs: the shipped studies, or the files given; the cheapest settings for an error (--advise), or the spacing of a
-    /// scene of your own (--error, --budget)
+    /// What accuracy costs: the shipped studies, or the files given; with --advise the cheapest settings for an error, with --error or --budget a scene of your own
     Cost(CostOptions),
     /// The JSON schema of study files
     Schema,
@@ -167,30 +166,37 @@ pub struct BenchOptions {
     pub no_progress: bool,
 }
 
-/// What only studies have, not searches.
-const OF_STUDIES: [&str; 5] = ["profile", "set", "isa", "strict", "quiet"];
-
 /// Options of `cost`.
 #[derive(Debug, Clone, Args)]
 pub struct CostOptions {
-    /// Study files; none means the shipped studies. With --error or --budget one of kind "scene": the coarsest spacing that is as
-    /// accurate, or the finest that is as quick, is found and marched
+    /// Study files; none means the shipped studies
     pub files: Vec<PathBuf>,
     /// Search kernels, m, volume rules and calibrations of plates; the answer goes to advice/
-    #[arg(long, conflicts_with_all = ["files", "budget", "case"], requires_all = ["error", "wavelength"])]
+    #[arg(long, requires_all = ["error", "wavelength"], conflicts_with_all = ["files", "profile", "set", "budget", "case"])]
     pub advise: bool,
-    /// Largest phase error, worst over directions and both branches; of a scene the largest of what its probes see, root mean
-    /// square over time over the largest size: 0.01 is one per cent
-    #[arg(long, value_name = "E", conflicts_with_all = OF_STUDIES, allow_negative_numbers = true)]
+    /// Largest phase error, worst over directions and both branches, 0.01 is one per cent; with a study of kind "scene" in place of
+    /// --advise: the coarsest spacing at which what its probes see is as accurate, root mean square over time over the largest size
+    #[arg(long, value_name = "E", conflicts_with_all = ["profile", "set"], allow_negative_numbers = true)]
     pub error: Option<f64>,
-    /// Seconds that the scene may take
-    #[arg(long, value_name = "SECONDS", conflicts_with = "error", conflicts_with_all = OF_STUDIES, allow_negative_numbers = true)]
+    /// With a study of kind "scene": the finest spacing that so many seconds afford
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        conflicts_with_all = ["error", "profile", "set"],
+        allow_negative_numbers = true
+    )]
     pub budget: Option<f64>,
     /// Which case of the scene study, if it has several
     #[arg(long, value_name = "ID")]
     pub case: Option<String>,
     /// Length of the shortest waves that matter, in m
-    #[arg(long, value_name = "L", conflicts_with_all = ["files", "budget"], allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "L",
+        requires = "advise",
+        conflicts_with_all = ["files", "budget"],
+        allow_negative_numbers = true
+    )]
     pub wavelength: Option<f64>,
     /// Settings of at least this m only
     #[arg(
@@ -202,12 +208,12 @@ pub struct CostOptions {
     )]
     pub min_m: Option<f64>,
     /// Settings of this horizon only, in m
-    #[arg(long, value_name = "H", conflicts_with_all = ["files", "budget"], allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", requires = "advise", allow_negative_numbers = true)]
     pub horizon: Option<f64>,
     /// Dilatational speed of the plate in m/s; that of steel in plane stress if not given
-    #[arg(long, value_name = "C", conflicts_with_all = ["files", "budget"], allow_negative_numbers = true)]
+    #[arg(long, value_name = "C", requires = "advise", allow_negative_numbers = true)]
     pub speed: Option<f64>,
-    /// Machine-readable, of --advise and of a scene
+    /// Machine-readable, with --advise, --error or --budget
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! `pd-verify cost`: the studies of what accuracy costs, the cheapest settings for an error (`--advise`), or a scene of one's own.
+//! `pd-verify cost`: the studies of what accuracy costs, with `--advise` the cheapest settings for an error, or a scene of one's own.
 
 use super::cost_scene::cost_scene;
 use super::judge::{self, End};
@@ -12,31 +12,37 @@ use crate::kind::Kind;
 use crate::output::Output;
 use std::io::{self, Write};
 
-/// Dilatational waves in steel in plane stress, in m/s.
-const SPEED: f64 = 5354.0;
-
 /// The folder below `--out`.
 const FOLDER: &str = "advice";
 
-/// Answers whichever is asked.
+/// Dilatational speed of steel in plane stress in m/s.
+const STEEL: f64 = 5354.0;
+
+/// Runs studies, or searches.
 pub fn cost(options: &CostOptions) -> Result<u8, Refusal> {
     if options.advise {
-        return advised(options);
+        return advice(options);
     }
-    let searched = options.error.is_some() || options.budget.is_some() || options.case.is_some();
-    match &options.files[..] {
-        [scene] if searched => cost_scene(options, scene),
-        _ if searched => Err(Refusal::new("which scene is it to be?").help(
-            "give one study file of kind \"scene\" with --error X or --budget SECONDS; for settings --advise --error E --wavelength L",
-        )),
-        _ if options.json => Err(Refusal::new("--json is for --advise, --error and --budget")
-            .help("studies write their tables to --out, verdicts.csv among them")),
-        files => judge::shipped_or_files(Kind::Cost, files, &options.run).map(End::code),
+    if options.error.is_some() || options.budget.is_some() {
+        return match options.files.as_slice() {
+            [scene] => cost_scene(options, scene),
+            files => {
+                Err(Refusal::new(format!("{} study files are given with --error or --budget", files.len()))
+                    .help(
+                        "name one scene of your own, or ask for settings: --advise --error E --wavelength L",
+                    ))
+            }
+        };
     }
+    if options.json || options.case.is_some() {
+        return Err(Refusal::new("--json and --case belong to a question")
+            .help("add --advise with --error and --wavelength, or --error X or --budget SECONDS with a scene of your own"));
+    }
+    judge::shipped_or_files(Kind::Cost, &options.files, &options.run).map(End::code)
 }
 
 /// Searches, prints and writes.
-fn advised(options: &CostOptions) -> Result<u8, Refusal> {
+fn advice(options: &CostOptions) -> Result<u8, Refusal> {
     let asked = asked(options)?;
     let output = Output::open(&options.run.out, &[FOLDER.to_owned()])?;
     let pool = judge::threads(options.run.threads)?;
@@ -64,6 +70,7 @@ fn advised(options: &CostOptions) -> Result<u8, Refusal> {
 
 fn asked(options: &CostOptions) -> Result<Asked, Refusal> {
     let CostOptions { error, wavelength, speed, min_m, horizon, .. } = *options;
+    let speed = speed.unwrap_or(STEEL);
     let positive = |name: &str, value: f64, example: &str| {
         if value > 0.0 && value.is_finite() {
             return Ok(value);
@@ -71,8 +78,8 @@ fn asked(options: &CostOptions) -> Result<Asked, Refusal> {
         Err(Refusal::new(format!("--{name} {value} is not a positive number"))
             .help(format!("as in --{name} {example}")))
     };
-    let (error, wavelength) = (error.unwrap_or(f64::NAN), wavelength.unwrap_or(f64::NAN));
-    let error = positive("error", error, "0.01")?;
+    // The parser asks for both beside --advise.
+    let error = positive("error", error.unwrap_or(f64::NAN), "0.01")?;
     if error >= 1.0 {
         return Err(Refusal::new(format!("--error {error} lets waves be wrong by as much as they are"))
             .help("give a part of the phase speed, as in --error 0.01 for one per cent"));
@@ -89,8 +96,8 @@ fn asked(options: &CostOptions) -> Result<Asked, Refusal> {
     };
     Ok(Asked {
         error,
-        wavelength: positive("wavelength", wavelength, "0.02")?,
-        speed: positive("speed", speed.unwrap_or(SPEED), "5354")?,
+        wavelength: positive("wavelength", wavelength.unwrap_or(f64::NAN), "0.02")?,
+        speed: positive("speed", speed, "5354")?,
         bound,
     })
 }

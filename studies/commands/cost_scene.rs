@@ -22,6 +22,13 @@ use std::time::Instant;
 pub fn cost_scene(options: &CostOptions, scene: &Path) -> Result<u8, Refusal> {
     let goal = goal(options)?;
     let own = Own::new(find::file(&scene.display().to_string())?, options.case.as_deref())?;
+    if let Some(isa) = options.run.isa {
+        if !isa.is_here() {
+            return Err(Refusal::new(format!("this processor does not have --isa {}", isa.word()))
+                .help("leave --isa out to use the best that is here"));
+        }
+        isa.pin();
+    }
     let kept = kept::read(&options.run.out)?;
     let folder = format!("{}-cost", own.id());
     let output = Output::open(&options.run.out, std::slice::from_ref(&folder))?;
@@ -41,7 +48,7 @@ pub fn cost_scene(options: &CostOptions, scene: &Path) -> Result<u8, Refusal> {
     let files =
         vec![Attachment::text("cost.json", data.clone()), Attachment::text(table.file.clone(), table.csv())];
     let figures: Vec<_> = figure::figure(&found, &own.name()).into_iter().collect();
-    let mut problems = folder::write(&output, &folder, None, files, &figures);
+    let mut problems = folder::write(&output, &folder, options.run.isa, files, &figures);
     let shown = if options.json { data } else { report::text(&own, &found) };
     if let Err(error) = say(&shown) {
         problems.push(format!("cannot print: {error}"));

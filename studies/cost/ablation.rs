@@ -6,7 +6,7 @@ use super::ablation_report::{figure, table};
 use crate::bench::rates::median;
 use crate::dispersion::sweep::LatticeSweep;
 use crate::dispersion::words::BodyName;
-use crate::question::{Answer, Claiming, Place, Planned, Question, claim, value_of};
+use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, value_of};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
@@ -40,7 +40,13 @@ pub struct Ablation {
     pub title: String,
     repeats: u64,
     pub variants: Vec<Ablated>,
-    twins: Vec<Twin>,
+    twins: Vec<Pair>,
+}
+
+/// A pair of plates, and the plan of the first.
+struct Pair {
+    twin: Twin,
+    plan: Plan,
 }
 
 /// A plate with one effect, planned.
@@ -105,13 +111,12 @@ impl Asked for AblationAsked {
         };
         let plain = plain(bare);
         let planned = |variant: Variant| Ok(Ablated { plan: named(&variant.scene, variant.name)?, variant });
-        let twins = twins(&plain);
-        twins.iter().try_for_each(|twin| Plan::of(&twin.with).map(|_| ()))?;
+        let paired = |twin: Twin| Ok(Pair { plan: named(&twin.with, twin.name)?, twin });
         Ok(Ablation {
             title: written.title.to_owned(),
             repeats: self.repeats,
             variants: variants(&plain).into_iter().map(planned).collect::<Result<_, Wrong>>()?,
-            twins,
+            twins: twins(&plain).into_iter().map(paired).collect::<Result<_, Wrong>>()?,
         })
     }
 }
@@ -158,8 +163,14 @@ impl Question for Ablation {
     }
 
     fn scenes(&self) -> Vec<Planned> {
-        let twins = self.twins.iter().filter_map(|twin| named(&twin.with, twin.name).ok());
+        let twins = self.twins.iter().map(|pair| pair.plan.clone());
         self.variants.iter().map(|one| one.plan.clone()).chain(twins).collect()
+    }
+
+    fn effort(&self) -> Effort {
+        let variants = self.variants.iter().flat_map(|one| (0..self.repeats).map(|_| one.plan.clone()));
+        let twins = self.twins.iter().flat_map(|pair| [pair.plan.clone(), pair.plan.clone()]);
+        Effort::of_scenes(&variants.chain(twins).collect::<Vec<_>>())
     }
 
     fn equations(&self) -> &'static str {
@@ -174,7 +185,7 @@ impl Question for Ablation {
         let twins: Result<Vec<(&Twin, [Record; 2])>, String> = self
             .twins
             .iter()
-            .map(|twin| Ok((twin, [run(subject, &twin.with)?, run(subject, &twin.without)?])))
+            .map(|Pair { twin, .. }| Ok((twin, [run(subject, &twin.with)?, run(subject, &twin.without)?])))
             .collect();
         let twins = match twins {
             Ok(twins) => twins,
@@ -192,8 +203,8 @@ impl Question for Ablation {
         let mistakes = unnamed.count() + named.count();
         let none = |found: Option<f64>, note: String| value_of(found, Some(0.0), note);
         let pairs = |avoidable: bool| {
-            let names: Vec<&str> =
-                self.twins.iter().filter(|twin| twin.avoidable == avoidable).map(|twin| twin.name).collect();
+            let of = self.twins.iter().filter(|pair| pair.twin.avoidable == avoidable);
+            let names: Vec<&str> = of.map(|pair| pair.twin.name).collect();
             names.join(", ")
         };
         Answer {

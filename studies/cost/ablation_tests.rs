@@ -17,7 +17,7 @@ use std::sync::Arc;
 fn case() -> String {
     let mut text = include_str!("ablation.toml").to_owned();
     for (from, to) in
-        [("[256, 192]", "[48, 40]"), ("steps = 100", "steps = 30"), ("repeats = 3", "repeats = 1")]
+        [("[128, 96]", "[48, 40]"), ("steps = 60", "steps = 30"), ("repeats = 3", "repeats = 1")]
     {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);

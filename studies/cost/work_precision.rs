@@ -88,11 +88,12 @@ impl WorkPrecision {
     /// (the spacing of as many node updates in a square, error) of a track's levels.
     fn by_work(&self, track: usize, points: &[Point], reading: usize) -> Vec<(f64, f64)> {
         let power = -1.0 / f64::from(self.facts.dimension + 1);
-        let level = |(run, point): (&Box<dyn super::runs::Run>, &Point)| {
+        let level = |(level, point): (usize, &Point)| {
+            let run = &self.tracks[track].runs[level];
             let error = point.solved.errors[reading].unwrap_or(f64::NAN);
             ((run.plan().node_updates as f64).powf(power), error)
         };
-        self.tracks[track].runs.iter().zip(points).map(level).collect()
+        points.iter().enumerate().map(level).collect()
     }
 
     /// Solves everything, several runs at once, then times one march after the other.

@@ -63,9 +63,9 @@ fn what_cannot_be_asked_is_refused_and_nothing_is_touched() {
     let refuses = |text: &str, arguments: &[&str], words: &[&str]| {
         Place::with_study(text).refuses(&[&["cost"], arguments].concat(), words);
     };
-    refuses(BAR, &["study.toml"], &["a study of another kind"]);
-    refuses(BAR, &["--error", "0.1"], &["which scene", "--advise"]);
-    refuses(BAR, &["--error", "0.1", "--set", "a=1", "study.toml"], &["cannot be used with"]);
+    refuses(BAR, &["study.toml"], &["another kind"]);
+    refuses(BAR, &["--json", "study.toml"], &["--error X or --budget"]);
+    refuses(BAR, &["--error", "0.1", "study.toml", "study.toml"], &["2 study files", "name one scene"]);
     for (given, word) in
         [("0", "--error 0 is"), ("-1", "--error -1"), ("NaN", "--error NaN"), ("1", "one per cent")]
     {
