@@ -52,8 +52,9 @@ mod tests {
     /// By the definition, pair by pair, on points of a fixed scatter.
     #[test]
     fn the_frontier_is_what_no_other_point_beats() {
-        let scatter = |n: u32| f64::from((n.wrapping_mul(2_654_435_761) >> 24) % 23) + 1.0;
-        let points: Vec<(f64, f64)> = (0..200).map(|n| (scatter(n), scatter(n + 1000))).collect();
+        let scatter = |n: u32| f64::from((n.wrapping_mul(2_654_435_761) >> 16) % 1009);
+        let points: Vec<(f64, f64)> =
+            (0..200).map(|n| (scatter(n * n + 7 * n), scatter(n * n * n + 31))).collect();
         let beaten = |at: usize| {
             points.iter().enumerate().any(|(other, &(cost, error))| {
                 let (own_cost, own_error) = points[at];

@@ -54,8 +54,14 @@ fn weights_are_right<const D: usize>(lattice: Lattice, stencil: &Stencil<D>) -> 
     plain.is_ok_and(|plain| plain.bonds == stencil.bonds)
 }
 
-/// Holes and notches; of two that do the same the first is kept.
+/// Holes and notches among which idle ones are looked for: each is held against all others.
+const MOST: usize = 32;
+
+/// Holes and notches; of two that do the same the first is kept. Of more than [`MOST`] none is named.
 fn obstacles<const D: usize>(scene: &Scene<D>, stencil: &Stencil<D>) -> Vec<Avoidable> {
+    if scene.holes.len() + scene.notches.len() > MOST {
+        return Vec::new();
+    }
     let (rest, mut all) = holes(scene, stencil);
     all.splice(0..0, notches(scene, rest, stencil));
     all

@@ -73,6 +73,8 @@ impl Problem for Jump {
                 expected: 0.5,
                 within: 0.1,
                 steady: false,
+                // Fronts are some horizons wide, and the law is that of fronts far from where they began.
+                widest: 0.03 * self.bar.exact.length,
                 because: "an Airy front of width Δx^(2/3) with ripples that fall off like (distance)^(-3/4); the next term is smaller by Δx^(1/6) only",
             }),
             readings: vec![String::new()],

@@ -33,6 +33,8 @@ pub struct Order {
     pub within: f64,
     /// Whether pairs of fine levels have it too: else it is that of a line through all of them.
     pub steady: bool,
+    /// The largest horizon in m at the coarsest level of settings whose levels show it.
+    pub widest: f64,
     /// By theory.
     pub because: &'static str,
 }

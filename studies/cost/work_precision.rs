@@ -11,6 +11,7 @@ use super::work_precision_report as report;
 use crate::dsif::tips::Tips;
 use crate::levels::{furthest, order_of, tail_order};
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of};
+use crate::rounded::rounded;
 use crate::subject::Subject;
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
@@ -47,6 +48,9 @@ const MOST_REPEATS: usize = 9;
 
 /// Errors below it are rounding.
 const FLOOR: f64 = 1e-9;
+
+/// Errors of K from which on they must fall.
+const SMALL: f64 = 1e-3;
 
 /// How far the error of finite differences may be from 1 − (cΔt/Δx)², relative.
 const LEAPFROG: f64 = 0.02;
@@ -137,8 +141,11 @@ impl WorkPrecision {
         }
         if let Some(order) = &self.facts.order {
             for (reading, suffix) in self.readings() {
-                let right = (0..self.tracks.len()).filter(|track| self.right[*track]);
-                let orders = right.map(|track| {
+                let shows = |track: &usize| {
+                    let first = self.tracks[*track].runs.first().map_or(f64::NAN, |run| run.spacing());
+                    self.right[*track] && self.tracks[*track].setting.lattice.m * first <= order.widest
+                };
+                let orders = (0..self.tracks.len()).filter(shows).map(|track| {
                     let levels = self.by_work(track, &points[track], reading);
                     match order.steady {
                         true => tail_order(&self.names[track], &levels, order.expected, order.within, FLOOR),
@@ -159,7 +166,7 @@ impl WorkPrecision {
         evidence
     }
 
-    /// Levels at which the error of a reading does not fall, of all settings with the intended moduli.
+    /// Levels at which the error of a reading rises above [`SMALL`], of all settings with the intended moduli.
     fn falls(&self, reading: usize, points: &Points) -> Evidence {
         let right = (0..self.tracks.len()).filter(|track| self.right[*track]);
         let (mut rising, mut where_, mut known) = (0, Vec::new(), true);
@@ -168,7 +175,7 @@ impl WorkPrecision {
                 points[track].iter().map(|point| point.solved.errors[reading]).collect();
             let errors = errors.unwrap_or_default();
             known &= !errors.is_empty() && errors.iter().all(|error| error.is_finite());
-            let here = errors.windows(2).filter(|pair| pair[1] >= pair[0]).count();
+            let here = errors.windows(2).filter(|pair| pair[1] >= pair[0].max(SMALL)).count();
             rising += here;
             where_.extend((here > 0).then(|| self.names[track].clone()));
         }
@@ -216,8 +223,12 @@ impl Question for WorkPrecision {
         if let Some(order) = &self.facts.order {
             let power = self.facts.dimension + 1;
             claims.extend(self.readings().map(|(_, suffix)| {
+                let from = match order.widest.is_finite() {
+                    true => format!(" and horizons from {} m on", rounded(order.widest)),
+                    false => String::new(),
+                };
                 let quantity = format!(
-                    "order of the error of {what} in (node updates)^(−1/{power}), settings with the intended moduli, the furthest"
+                    "order of the error of {what} in (node updates)^(−1/{power}), settings with the intended moduli{from}, the furthest"
                 );
                 claim(place, &format!("exponent{suffix}"), quantity)
                     .order(order.expected, order.within)
@@ -228,12 +239,12 @@ impl Question for WorkPrecision {
         for &reading in &self.facts.falling {
             let name = &self.facts.readings[reading];
             let quantity = format!(
-                "levels at which the error of K by {name} does not fall, settings with the intended moduli"
+                "levels at which the error of K by {name} rises above {SMALL}, settings with the intended moduli"
             );
             claims.push(
                 claim(place, &format!("falls_{name}"), quantity)
                     .exactly()
-                    .because(Basis::Theory, "with the intended moduli and the tip factor every part of the error falls with the horizon")
+                    .because(Basis::Theory, "with the intended moduli and the tip factor every part of the error falls with the horizon; parts of opposite sign may cancel on a coarse lattice, which a thousandth leaves room for")
                     .source(self.facts.source),
             );
         }

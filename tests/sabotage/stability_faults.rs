@@ -46,6 +46,7 @@ pub fn all() -> Vec<Fault> {
             Box::new(Told(sound_to_the_end)),
         ),
         growth("the limit that is reported is two per cent too large", Box::new(Told(long_limit))),
+        growth("neither limit is known well", Box::new(Told(long_limits))),
         growth("what grows a thousandfold is given up", Box::new(Alarmed)),
         growth("loads are forgotten but for a damped fall", Box::new(Unloaded)),
         ends("bonds are a millionth softer", Box::new(Softer)),
@@ -259,6 +260,12 @@ impl Subject for Told {
 
 fn sound_to_the_end(diverged: &mut Diverged) {
     diverged.sound_step = Some(diverged.step);
+}
+
+/// A plan that allows twice too much does not mend an own limit that is too large.
+fn long_limits(diverged: &mut Diverged) {
+    long_limit(diverged);
+    diverged.record.plan.time_step_over_limit *= 0.5;
 }
 
 fn long_limit(diverged: &mut Diverged) {
