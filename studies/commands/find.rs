@@ -7,7 +7,7 @@ use crate::study::Study;
 use std::path::Path;
 
 /// The shipped study of this id as text, with its file name.
-fn shipped_text(id: &str) -> Option<(&'static str, &'static str)> {
+pub fn shipped_text(id: &str) -> Option<(&'static str, &'static str)> {
     SHIPPED.iter().copied().find(|(file, text)| id_of(file, text) == id)
 }
 
