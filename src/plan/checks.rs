@@ -17,8 +17,10 @@ const MAX_CUT_NODES: usize = 1 << 26;
 /// Its pairs of bonds near what cuts it.
 const MAX_CUT_PAIRS: f64 = 1e9;
 
-/// Visits of nodes by which holes and effects are laid out; an effect keeps what it finds, and counts as several.
+/// Visits of nodes by which holes and effects are laid out; a hole is looked at alone and among the others, an effect keeps
+/// what it finds, and counts as several.
 const MAX_PLANNED: f64 = (1_u64 << 31) as f64;
+const HOLE: usize = 2;
 const EFFECT: usize = 4;
 
 /// What one run may hold of patches: more is a slip of the pen.
@@ -76,7 +78,7 @@ fn nodes<const D: usize>(scene: &Scene<D>) -> Result<(), Wrong> {
         );
         return Err(Wrong::new("dx_m", message, "take a larger spacing or a smaller body"));
     }
-    if count * (holes + EFFECT * effects) as f64 > MAX_PLANNED {
+    if count * (HOLE * holes + EFFECT * effects) as f64 > MAX_PLANNED {
         let message = format!("{holes} holes and {effects} effects are too many to lay out on {count} nodes");
         return Err(Wrong::new("dx_m", message, "take fewer of them, or a larger spacing"));
     }
