@@ -1,7 +1,7 @@
 //! `pd-verify bench`: the whole suite of speeds, or one case, beside the machine's own limits.
 
-use super::judge::{End, pools};
-use super::{folder, say};
+use super::judge::End;
+use super::{folder, say, threads};
 use crate::attachment::Attachment;
 use crate::bench::cases::{Case, Group, M, SIDE, suite};
 use crate::bench::forecast::forecasts;
@@ -91,7 +91,7 @@ fn case(options: &BenchOptions) -> Result<Case, Refusal> {
 }
 
 fn one_case(case: Case, isa: Isa, options: &BenchOptions) -> Result<u8, Refusal> {
-    let pools = pools(options.threads)?;
+    let pools = threads::pools(options.threads)?;
     let limits = pools.all.install(|| Limits::measure(isa));
     // Steps that are given are run once.
     let pace = match options.steps {
@@ -113,7 +113,7 @@ fn one_case(case: Case, isa: Isa, options: &BenchOptions) -> Result<u8, Refusal>
 }
 
 fn whole_suite(isa: Isa, options: &BenchOptions, output: &Output) -> Result<u8, Refusal> {
-    let pools = pools(options.threads)?;
+    let pools = threads::pools(options.threads)?;
     let threads = pools.all.current_num_threads();
     let groups = suite(threads);
     let progress = Progress::new(groups.len() + 2, !options.no_progress);

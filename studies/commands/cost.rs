@@ -2,7 +2,7 @@
 
 use super::cost_scene::cost_scene;
 use super::judge::{self, End};
-use super::{folder, say};
+use super::{folder, say, threads};
 use crate::attachment::Attachment;
 use crate::cli::CostOptions;
 use crate::cost::advice::{Asked, Bound, MS, advise};
@@ -45,7 +45,7 @@ pub fn cost(options: &CostOptions) -> Result<u8, Refusal> {
 fn advice(options: &CostOptions) -> Result<u8, Refusal> {
     let asked = asked(options)?;
     let output = Output::open(&options.run.out, &[FOLDER.to_owned()])?;
-    let pool = judge::threads(options.run.threads)?;
+    let pool = threads::pool(options.run.threads)?;
     let advice = pool.install(|| advise(asked));
     let data = serde_json::to_string_pretty(&text::json(&advice)).expect("plain data") + "\n";
     let table = text::table(&advice);

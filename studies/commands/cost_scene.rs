@@ -1,7 +1,7 @@
 //! `pd-verify cost --error X SCENE` and `--budget S SCENE`: what accuracy costs in a scene of one's own.
 
-use super::judge::{self, End};
-use super::{find, folder, say};
+use super::judge::End;
+use super::{find, folder, say, threads};
 use crate::attachment::Attachment;
 use crate::bench::kept;
 use crate::cli::CostOptions;
@@ -38,7 +38,7 @@ pub fn cost_scene(options: &CostOptions, scene: &Path) -> Result<u8, Refusal> {
         memory: machine::room().bytes,
         stop: &interrupted,
     };
-    let pool = judge::threads(options.run.threads)?;
+    let pool = threads::pool(options.run.threads)?;
     let found = match pool.install(|| search(&own, goal, &machine)) {
         Ok(found) => found,
         Err(stopped) => return Ok(stop(stopped)),

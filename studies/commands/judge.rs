@@ -1,8 +1,7 @@
 //! Commands that compute: read, refuse, run, judge, write, and end with the code that tells how it went.
 
-use super::say;
+use super::{say, threads};
 use crate::attachment::Attachment;
-use crate::bench::measure::Pools;
 use crate::bench::short;
 use crate::cli::RunOptions;
 use crate::input::{MAX_BYTES, Refusal, Setting};
@@ -151,28 +150,15 @@ fn compute(groups: Vec<Group>, options: &RunOptions) -> Result<End, Refusal> {
     afford::check(studies, options.profile, machine::threads(options.threads), machine::room())?;
     let folders: Vec<String> = groups.iter().map(|group| group.folder.clone()).collect();
     let output = Output::open(&options.out, &folders)?;
-    let pool = threads(options.threads)?;
+    let pool = threads::pool(options.threads)?;
     let costs = costs(&groups, options)?;
     pool.install(|| Ok(compute_and_write(&groups, options, costs, &output)))
-}
-
-/// The threads that were asked for, all if none were.
-pub fn threads(count: Option<u16>) -> Result<rayon::ThreadPool, Refusal> {
-    let count = count.map_or(0, usize::from);
-    rayon::ThreadPoolBuilder::new().num_threads(count).build().map_err(|error| {
-        Refusal::new(format!("cannot start threads: {error}")).help("take fewer with --threads")
-    })
-}
-
-/// The same, and one alone, for what is measured.
-pub fn pools(count: Option<u16>) -> Result<Pools, Refusal> {
-    Ok(Pools { all: threads(count)?, one: threads(Some(1))? })
 }
 
 /// What nodes cost on this machine, where a study asks what accuracy costs.
 fn costs(groups: &[Group], options: &RunOptions) -> Result<Option<Costs>, Refusal> {
     let asked = groups.iter().flat_map(|group| &group.studies).any(|study| study.kind == Kind::Cost);
-    if asked { short::costs(options, &pools(options.threads)?).map(Some) } else { Ok(None) }
+    if asked { short::costs(options, &threads::pools(options.threads)?).map(Some) } else { Ok(None) }
 }
 
 fn compute_and_write(groups: &[Group], options: &RunOptions, costs: Option<Costs>, output: &Output) -> End {

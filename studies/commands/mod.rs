@@ -10,6 +10,7 @@ pub mod judge;
 pub mod list;
 pub mod plan;
 mod scene_lines;
+mod threads;
 
 use std::io::{self, Write};
 

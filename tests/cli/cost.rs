@@ -193,13 +193,13 @@ fn settings_that_cannot_be_are_refused_with_their_place() {
         (
             "safety = [0.4, 0.8]",
             "safety = [0.4, 1.0]",
-            vec!["study.toml:17", "no stable time step", "[0.1, 0.5, 0.95]"],
+            vec!["study.toml:16", "no stable time step", "[0.1, 0.5, 0.95]"],
         ),
-        ("dx_mm = [25, 12.5, 6.25]", "dx_mm = [25, 12.5]", vec!["study.toml:16", "three levels"]),
-        ("width_m = 0.1", "width_m = 0.4", vec!["study.toml:12", "twelfth of side_m"]),
+        ("dx_mm = [25, 12.5, 6.25]", "dx_mm = [25, 12.5]", vec!["study.toml:15", "three levels"]),
+        ("width_m = 0.1", "width_m = 0.4", vec!["study.toml:11", "twelfth of side_m"]),
         ("body = \"bar\"", "body = \"plane_stress\"", vec!["finite differences are run in bars"]),
-        ("finite_differences", "finite_diferences", vec!["study.toml:18", "finite_differences"]),
-        ("m = [2, 3.4]", "m = [2, 0.3]", vec!["study.toml:15"]),
+        ("finite_differences", "finite_diferences", vec!["study.toml:17", "finite_differences"]),
+        ("m = [2, 3.4]", "m = [2, 0.3]", vec!["study.toml:14"]),
     ] {
         assert!(PULSE.contains(old));
         Place::with_study(PULSE.replacen(old, new, 1)).refuses(&["cost", "study.toml"], &words);
