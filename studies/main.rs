@@ -20,6 +20,7 @@ mod kind;
 mod levels;
 mod machine;
 mod manifest;
+mod median;
 mod output;
 mod progress;
 mod question;

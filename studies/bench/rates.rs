@@ -3,6 +3,7 @@
 use super::limits::Limits;
 use super::measure::Measured;
 use crate::cli::Isa;
+pub use crate::median::median;
 use pd_verify::plan::work::Work;
 use serde::Serialize;
 
@@ -90,16 +91,6 @@ impl Rates {
             work,
             seconds_per_step: 1.0 / steps,
         }
-    }
-}
-
-/// The middle one, or the mean of the two in the middle; NaN of none.
-pub fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    match sorted.len() {
-        0 => f64::NAN,
-        count => 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]),
     }
 }
 

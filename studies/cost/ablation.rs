@@ -3,9 +3,9 @@
 
 use super::ablation_bodies::{Twin, Variant, WHOLE, plain, twins, variants};
 use super::ablation_report::{figure, table};
-use crate::bench::rates::median;
 use crate::dispersion::sweep::LatticeSweep;
 use crate::dispersion::words::BodyName;
+use crate::median::median;
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, value_of};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};

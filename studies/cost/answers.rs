@@ -46,10 +46,9 @@ impl By {
     }
 }
 
-/// Median of growing numbers.
-pub fn median(sorted: &[f64]) -> Option<f64> {
-    let middle = sorted.len().checked_sub(1)? / 2;
-    Some(0.5 * (sorted[middle] + sorted[sorted.len() / 2]))
+/// The median, where there is a number.
+pub fn median(numbers: &[f64]) -> Option<f64> {
+    Some(crate::median::median(numbers)).filter(|median| median.is_finite())
 }
 
 /// Every setting and reading that comes to an error of `target`.

@@ -199,7 +199,7 @@ fn settings_that_cannot_be_are_refused_with_their_place() {
         ("width_m = 0.1", "width_m = 0.4", vec!["study.toml:11", "twelfth of side_m"]),
         ("body = \"bar\"", "body = \"plane_stress\"", vec!["finite differences are run in bars"]),
         ("finite_differences", "finite_diferences", vec!["study.toml:17", "finite_differences"]),
-        ("m = [2, 3.4]", "m = [2, 0.3]", vec!["study.toml:14"]),
+        ("m = [2, 3.4]", "m = [2, 0.3]", vec!["study.toml:13"]),
     ] {
         assert!(PULSE.contains(old));
         Place::with_study(PULSE.replacen(old, new, 1)).refuses(&["cost", "study.toml"], &words);

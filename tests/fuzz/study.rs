@@ -14,6 +14,8 @@ mod attachment;
 mod bar;
 #[path = "../../studies/convergence/mod.rs"]
 mod convergence;
+#[path = "../../studies/cost/mod.rs"]
+mod cost;
 #[path = "../../studies/dispersion/mod.rs"]
 mod dispersion;
 #[path = "../../studies/dsif/mod.rs"]
@@ -27,6 +29,8 @@ mod kind;
 mod levels;
 #[path = "../../studies/machine.rs"]
 mod machine;
+#[path = "../../studies/median.rs"]
+mod median;
 #[path = "../../studies/question.rs"]
 mod question;
 #[path = "../../studies/rounded.rs"]
