@@ -1,10 +1,11 @@
 //! A claim: one quantity held against one bound, with the reason for the bound, written before anything is computed.
 
+use crate::exact::{self, Exact};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the computed value and its bound are compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Relation {
     /// error ≤ tolerance.
     #[serde(rename = "<=")]
@@ -33,7 +34,7 @@ impl Relation {
 }
 
 /// What kind of number the error is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ErrorKind {
     /// |computed − reference|, in the unit of the quantity.
@@ -106,7 +107,7 @@ impl Basis {
 }
 
 /// What the claim's author expects of it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Expectation {
     /// The bound holds.
@@ -116,7 +117,8 @@ pub enum Expectation {
 }
 
 /// One quantity against one bound.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Claim {
     /// Unique over all studies: `study/case/name`.
     pub id: String,
@@ -128,11 +130,15 @@ pub struct Claim {
     pub unit: String,
     pub error_kind: ErrorKind,
     pub relation: Relation,
+    #[serde(with = "exact::number")]
+    #[schemars(with = "Exact")]
     pub tolerance: f64,
     pub basis: Basis,
     /// Why the tolerance is what it is, in a sentence.
     pub because: String,
     /// Expected order of convergence, for claims about orders.
+    #[serde(with = "exact::option")]
+    #[schemars(with = "Option<Exact>")]
     pub expected_order: Option<f64>,
     pub expectation: Expectation,
     /// Where the reference comes from: publication and equation, or the method.

@@ -81,6 +81,7 @@ pub mod compare;
 pub mod connectivity;
 pub mod constraints;
 pub mod dispersion;
+pub mod exact;
 pub mod family;
 pub mod fastest;
 pub mod field;

@@ -1,22 +1,36 @@
 //! A verdict: what the evidence says of a claim. Missing, NaN or outside validity is `inconclusive`, never a pass.
 
 use crate::claim::{Claim, Expectation, Relation};
-use serde::Serialize;
+use crate::exact::{self, Exact};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// An observed order of convergence with its 95 % interval.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct ObservedOrder {
+    #[serde(with = "exact::number")]
+    #[schemars(with = "Exact")]
     pub value: f64,
     /// Ends of the 95 % interval; `None` with fewer than three levels.
+    #[serde(with = "exact::interval")]
+    #[schemars(with = "Option<(Exact, Exact)>")]
     pub interval: Option<(f64, f64)>,
     pub levels: usize,
 }
 
 /// What was found out about a claim.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Evidence {
+    #[serde(with = "exact::option")]
+    #[schemars(with = "Option<Exact>")]
     pub computed: Option<f64>,
+    #[serde(with = "exact::option")]
+    #[schemars(with = "Option<Exact>")]
     pub reference: Option<f64>,
+    #[serde(with = "exact::option")]
+    #[schemars(with = "Option<Exact>")]
     pub error: Option<f64>,
     pub order: Option<ObservedOrder>,
     /// Set where the reference does not hold: the reason. The verdict is then `inconclusive`.
@@ -26,11 +40,13 @@ pub struct Evidence {
     /// Set where the computation failed: what happened. The verdict is then `error`.
     pub failed: Option<String>,
     pub note: String,
+    #[serde(with = "exact::option")]
+    #[schemars(with = "Option<Exact>")]
     pub seconds: Option<f64>,
 }
 
 /// The seven words of `verdicts.csv`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     Pass,
@@ -62,7 +78,8 @@ impl Verdict {
 }
 
 /// A claim, what was found, and what follows.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Judged {
     pub claim: Claim,
     pub evidence: Evidence,

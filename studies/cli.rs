@@ -1,6 +1,7 @@
 //! The command line: commands and options as users type them.
 
 use crate::question::Profile;
+use crate::shard::Shard;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use pd_verify::simd::{self, InstructionSet};
 use std::path::PathBuf;
@@ -50,6 +51,18 @@ pub enum Command {
         #[command(flatten)]
         options: RunOptions,
     },
+    /// Every shipped study in one report; or, with --from, the report of results that are there
+    Report {
+        /// Folder of an earlier run: its report is written again from its results, nothing is computed
+        #[arg(
+            long,
+            value_name = "DIR",
+            conflicts_with_all = ["out", "profile", "set", "threads", "isa", "no_progress", "shard", "resume", "rerun_failed"]
+        )]
+        from: Option<PathBuf>,
+        #[command(flatten)]
+        options: RunOptions,
+    },
     /// Run study files of any kind
     Run {
         /// Study files
@@ -96,8 +109,12 @@ pub enum Command {
     Bench(BenchOptions),
     /// What accuracy costs: the shipped studies, or the files given; with --advise the cheapest settings for an error, with --error or --budget a scene of your own
     Cost(CostOptions),
-    /// The JSON schema of study files
-    Schema,
+    /// The JSON schema of study files, or of the results that runs leave
+    Schema {
+        /// Of which files
+        #[arg(value_enum, default_value_t)]
+        of: SchemaOf,
+    },
     /// A completion script for your shell
     Completions {
         #[arg(value_enum)]
@@ -132,6 +149,27 @@ pub struct RunOptions {
     /// No progress on the terminal
     #[arg(long)]
     pub no_progress: bool,
+    /// Run part k of n; cases are dealt by their names, and `merge` puts the parts together
+    #[arg(long, value_name = "K/N")]
+    pub shard: Option<Shard>,
+    /// Take over from the folder of the results what an earlier run found, where study, program and instruction set are unchanged
+    #[arg(long)]
+    pub resume: bool,
+    /// The same, but run again what failed, broke off or could not be judged
+    #[arg(long)]
+    pub rerun_failed: bool,
+}
+
+/// Files that have a schema.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum SchemaOf {
+    /// Study files
+    #[default]
+    Study,
+    /// results.json, in every folder of results
+    Results,
+    /// run.json, beside these folders
+    Run,
 }
 
 /// Options of `bench`.
@@ -172,17 +210,17 @@ pub struct CostOptions {
     /// Study files; none means the shipped studies
     pub files: Vec<PathBuf>,
     /// Search kernels, m, volume rules and calibrations of plates; the answer goes to advice/
-    #[arg(long, requires_all = ["error", "wavelength"], conflicts_with_all = ["files", "profile", "set", "budget", "case"])]
+    #[arg(long, requires_all = ["error", "wavelength"], conflicts_with_all = ["files", "profile", "set", "budget", "case", "shard", "resume", "rerun_failed"])]
     pub advise: bool,
     /// Largest phase error, worst over directions and both branches, 0.01 is one per cent; with a study of kind "scene" in place of
     /// --advise: the coarsest spacing at which what its probes see is as accurate, root mean square over time over the largest size
-    #[arg(long, value_name = "E", conflicts_with_all = ["profile", "set"], allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", conflicts_with_all = ["profile", "set", "shard", "resume", "rerun_failed"], allow_negative_numbers = true)]
     pub error: Option<f64>,
     /// With a study of kind "scene": the finest spacing that so many seconds afford
     #[arg(
         long,
         value_name = "SECONDS",
-        conflicts_with_all = ["error", "profile", "set"],
+        conflicts_with_all = ["error", "profile", "set", "shard", "resume", "rerun_failed"],
         allow_negative_numbers = true
     )]
     pub budget: Option<f64>,

@@ -24,10 +24,12 @@ mod median;
 mod output;
 mod progress;
 mod question;
+mod results;
 mod rounded;
 mod run;
 mod scene;
 mod schema;
+mod shard;
 mod shipped;
 mod stability;
 mod study;
@@ -42,7 +44,7 @@ mod hostile;
 mod sabotage;
 
 use clap::{CommandFactory, Parser};
-use cli::{Cli, Command};
+use cli::{Cli, Command, SchemaOf};
 use commands::{explain, judge, list, plan, say};
 use input::Refusal;
 use kind::Kind;
@@ -77,6 +79,10 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
         Command::Stability { files, options } => {
             judge::shipped_or_files(Kind::Stability, &files, &options).map(judge::End::code)
         }
+        Command::Report { from: Some(folder), options } => {
+            commands::report::from(&folder, &options).map(judge::End::code)
+        }
+        Command::Report { from: None, options } => judge::all(&options).map(judge::End::code),
         Command::Run { files, options } => judge::files(&files, &options).map(judge::End::code),
         Command::List { json } => print(&list::list(json)?),
         Command::Explain { id, bibtex, toml } => print(&explain::explain(&id, bibtex, toml)?),
@@ -85,12 +91,20 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
         }
         Command::Bench(options) => commands::bench::bench(&options),
         Command::Cost(options) => commands::cost::cost(&options),
-        Command::Schema => print(&format!("{:#}\n", schema::schema())),
+        Command::Schema { of } => print(&format!("{:#}\n", schema_of(of))),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "pd-verify", &mut script);
             print(&String::from_utf8_lossy(&script))
         }
+    }
+}
+
+fn schema_of(of: SchemaOf) -> serde_json::Value {
+    match of {
+        SchemaOf::Study => schema::schema(),
+        SchemaOf::Results => results::results_schema(),
+        SchemaOf::Run => results::run_schema(),
     }
 }
 

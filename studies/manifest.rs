@@ -1,20 +1,24 @@
 //! Under which circumstances a result was made: version, commit, compiler, machine, command line, study files.
 
 use pd_verify::simd::Isa;
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::time::SystemTime;
 
 /// `manifest.json`.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Manifest {
-    pub version: &'static str,
-    pub git_commit: Option<&'static str>,
+    pub version: String,
+    /// The version of the exact answers.
+    pub reference_version: String,
+    pub git_commit: Option<String>,
     pub git_modified: Option<bool>,
-    pub rustc: &'static str,
-    pub target: &'static str,
-    /// The instruction set in use; nothing here has code for more than the target's baseline yet.
-    pub instruction_set: &'static str,
+    pub rustc: String,
+    pub target: String,
+    /// The instruction set in use.
+    pub instruction_set: String,
     pub instruction_set_asked: Option<String>,
     pub cpu: String,
     pub threads: usize,
@@ -26,7 +30,8 @@ pub struct Manifest {
 }
 
 /// A study file and the SHA-256 of its bytes.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct StudyHash {
     pub id: String,
     pub file: String,
@@ -50,12 +55,13 @@ impl Manifest {
     ) -> Self {
         let known = |text: &'static str| (!text.is_empty()).then_some(text);
         Self {
-            version: env!("CARGO_PKG_VERSION"),
-            git_commit: known(env!("PD_VERIFY_COMMIT")),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            reference_version: pd_verify_reference::VERSION.to_owned(),
+            git_commit: known(env!("PD_VERIFY_COMMIT")).map(str::to_owned),
             git_modified: known(env!("PD_VERIFY_MODIFIED")).map(|text| text == "true"),
-            rustc: env!("PD_VERIFY_RUSTC"),
-            target: env!("PD_VERIFY_TARGET"),
-            instruction_set: Isa::chosen().set().name(),
+            rustc: env!("PD_VERIFY_RUSTC").to_owned(),
+            target: env!("PD_VERIFY_TARGET").to_owned(),
+            instruction_set: Isa::chosen().set().name().to_owned(),
             instruction_set_asked: isa,
             cpu: cpu_model(),
             threads: rayon::current_num_threads(),
@@ -74,16 +80,16 @@ impl Manifest {
 
     /// Name and value pairs for a page.
     pub fn pairs(&self) -> Vec<(String, String)> {
-        let commit = match (self.git_commit, self.git_modified) {
+        let commit = match (&self.git_commit, self.git_modified) {
             (Some(commit), Some(true)) => format!("{commit}, modified"),
-            (Some(commit), _) => commit.to_owned(),
+            (Some(commit), _) => commit.clone(),
             (None, _) => "unknown".into(),
         };
         let mut pairs = vec![
-            ("version".to_owned(), self.version.to_owned()),
+            ("version".to_owned(), self.version.clone()),
             ("commit".into(), commit),
             ("compiler".into(), format!("{}, {}", self.rustc, self.target)),
-            ("instruction set".into(), self.instruction_set.into()),
+            ("instruction set".into(), self.instruction_set.clone()),
             ("processor".into(), self.cpu.clone()),
             ("threads".into(), self.threads.to_string()),
             ("profile".into(), self.profile.clone()),

@@ -7,14 +7,15 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// The file by which a folder is known to be ours, and may be replaced.
-const MARK: &str = "manifest.json";
+pub const MARK: &str = "manifest.json";
 
 /// Files in the root that speak of a run, and how ours can be told from somebody else's.
-const ROOT_FILES: [(&str, &str); 4] = [
+const ROOT_FILES: [(&str, &str); 5] = [
     ("index.html", "pd-verify"),
     ("summary.md", "# Verification of peridynamics"),
     ("junit.xml", "<testsuites name=\"Verification of peridynamics"),
     ("verdicts.csv", "claim,study,case,quantity,"),
+    ("run.json", "\"program\": \"pd-verify\""),
 ];
 
 /// `--out`.
@@ -60,6 +61,7 @@ impl Output {
         fs::write(&probe, b"").and_then(|()| fs::remove_file(&probe)).map_err(|error| refuse(&error))?;
         let output = Self { root: root.to_owned() };
         folders.iter().for_each(|folder| output.tidy(folder));
+        output.tidy_partial();
         ROOT_FILES.iter().for_each(|(file, _)| output.tidy(file));
         Ok(output)
     }
@@ -82,43 +84,81 @@ impl Output {
         }
     }
 
+    /// Clears away folders that runs which were killed had begun, whatever their name.
+    fn tidy_partial(&self) {
+        let Ok(entries) = fs::read_dir(&self.root) else { return };
+        for entry in entries.flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let process = name.strip_prefix('.').and_then(|name| name.rsplit_once(".partial-"));
+            let process = process.and_then(|(_, process)| process.parse().ok());
+            if process.is_some_and(has_ended) && is_ours(&entry.path()) {
+                clear(&entry.path());
+            }
+        }
+    }
+
     /// Replaces a folder of results, all files at once.
     pub fn replace_folder(&self, name: &str, files: &[Attachment]) -> io::Result<PathBuf> {
-        let place = self.root.join(name);
-        let partial = self.root.join(format!(".{name}.partial-{}", std::process::id()));
-        let old = self.root.join(format!(".{name}.old-{}", std::process::id()));
-        let _ = fs::remove_dir_all(&partial);
-        let written = fs::create_dir_all(&partial).and_then(|()| {
-            files.iter().try_for_each(|file| fs::write(partial.join(&file.name), file.bytes()))
-        });
-        if let Err(error) = written {
-            let _ = fs::remove_dir_all(&partial);
-            return Err(error);
-        }
-        if place.exists()
-            && let Err(error) = fs::rename(&place, &old)
-        {
-            let _ = fs::remove_dir_all(&partial);
-            return Err(error);
-        }
-        if let Err(error) = fs::rename(&partial, &place) {
-            let _ = fs::rename(&old, &place);
-            let _ = fs::remove_dir_all(&partial);
-            return Err(error);
-        }
-        clear(&old);
-        Ok(place)
+        let partial = self.partial(name)?;
+        files.iter().try_for_each(|file| fs::write(partial.path(&file.name), file.bytes()))?;
+        partial.commit()
+    }
+
+    /// Begins a folder of results beside the place where it will stand.
+    pub fn partial(&self, name: &str) -> io::Result<Partial> {
+        let beside = |kind: &str| self.root.join(format!(".{name}.{kind}-{}", std::process::id()));
+        let partial = Partial { place: self.root.join(name), at: beside("partial"), old: beside("old") };
+        let _ = fs::remove_dir_all(&partial.at);
+        fs::create_dir_all(&partial.at)?;
+        Ok(partial)
     }
 
     /// Replaces a file in the root.
     pub fn replace_file(&self, name: &str, text: &str) -> io::Result<PathBuf> {
         let place = self.root.join(name);
         let partial = self.root.join(format!(".{name}.partial-{}", std::process::id()));
-        let written = fs::write(&partial, text).and_then(|()| fs::rename(&partial, &place));
+        // The folder may have been removed since.
+        let written = fs::create_dir_all(&self.root)
+            .and_then(|()| fs::write(&partial, text))
+            .and_then(|()| fs::rename(&partial, &place));
         if written.is_err() {
             let _ = fs::remove_file(&partial);
         }
         written.map(|()| place)
+    }
+}
+
+/// A folder of results on its way; it is gone unless it is put in place.
+#[derive(Debug)]
+pub struct Partial {
+    place: PathBuf,
+    at: PathBuf,
+    old: PathBuf,
+}
+
+impl Partial {
+    /// Where a file of it is written.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.at.join(name)
+    }
+
+    /// Takes the place of what was there.
+    pub fn commit(self) -> io::Result<PathBuf> {
+        if self.place.exists() {
+            fs::rename(&self.place, &self.old)?;
+        }
+        if let Err(error) = fs::rename(&self.at, &self.place) {
+            let _ = fs::rename(&self.old, &self.place);
+            return Err(error);
+        }
+        clear(&self.old);
+        Ok(self.place.clone())
+    }
+}
+
+impl Drop for Partial {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.at);
     }
 }
 

@@ -1,10 +1,9 @@
 //! Progress on the terminal: a bar where somebody watches, silence in pipes, and the end at Ctrl-C or when asked to end.
 
-use crate::run::Watch;
-use crate::study::Case;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag::{register, register_conditional_shutdown};
+use std::fmt::Write;
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, LazyLock};
@@ -25,29 +24,43 @@ pub fn interrupted() -> bool {
     INTERRUPTED.load(Ordering::SeqCst)
 }
 
-/// The bar.
+/// The bar, as long as the seconds that the work may take.
 pub struct Progress {
     bar: ProgressBar,
 }
 
+/// Steps of the bar in a second.
+const FINENESS: f64 = 1e3;
+
 impl Progress {
-    pub fn new(cases: usize, wanted: bool) -> Self {
+    /// A bar of equal steps.
+    pub fn new(steps: usize, wanted: bool) -> Self {
+        Self::of(steps as f64, wanted)
+    }
+
+    /// A bar of steps that count as much as [`Self::advance`] says.
+    pub fn of(length: f64, wanted: bool) -> Self {
         let shown = wanted && std::io::stderr().is_terminal();
         let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let style = ProgressStyle::with_template("{bar:24} {pos}/{len} {msg} {elapsed} (left {eta})");
-        let bar = ProgressBar::with_draw_target(Some(cases as u64), target);
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        let style = ProgressStyle::with_template("{bar:24} {percent:>3} % {msg} {elapsed} (left {left})");
+        let bar = ProgressBar::with_draw_target(Some((length * FINENESS) as u64), target);
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).with_key("left", left));
         Self { bar }
     }
 
-    /// What is done now, where it is no case of a study.
+    /// What is done now.
     pub fn at(&self, what: &str) {
         self.bar.set_message(what.to_owned());
     }
 
-    /// It is done.
+    /// A step is done.
     pub fn step(&self) {
-        self.bar.inc(1);
+        self.advance(1.0);
+    }
+
+    /// So much is done.
+    pub fn advance(&self, by: f64) {
+        self.bar.inc((by * FINENESS) as u64);
     }
 
     /// A line that stays.
@@ -60,31 +73,11 @@ impl Progress {
     }
 }
 
-impl Watch for Progress {
-    fn stop(&self) -> bool {
-        interrupted()
-    }
-
-    fn begin(&self, case: &Case) {
-        self.bar.set_message(format!("{}/{}", case.place.study, case.place.case));
-    }
-
-    fn end(&self, _: &Case) {
-        self.bar.inc(1);
-    }
-}
-
-/// A watch that shows nothing and never stops, for tests.
-#[cfg(test)]
-pub struct Silent;
-
-#[cfg(test)]
-impl Watch for Silent {
-    fn stop(&self) -> bool {
-        false
-    }
-
-    fn begin(&self, _: &Case) {}
-
-    fn end(&self, _: &Case) {}
+/// The rest takes as long for its length as what is done took for its own.
+fn left(state: &ProgressState, text: &mut dyn Write) {
+    let (done, elapsed) = (f64::from(state.fraction()), state.elapsed().as_secs_f64());
+    let _ = match done > 0.01 {
+        true => write!(text, "{:.0} s", elapsed * (1.0 - done) / done),
+        false => write!(text, "unknown"),
+    };
 }

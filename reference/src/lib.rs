@@ -87,3 +87,6 @@ pub struct Wave {
     /// Group speed dω/dk over the classical speed.
     pub slope: f64,
 }
+
+/// The version of these answers.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

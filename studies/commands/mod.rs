@@ -1,6 +1,7 @@
 //! What each command does.
 
 pub mod bench;
+mod compute;
 pub mod cost;
 pub mod cost_scene;
 pub mod explain;
@@ -9,6 +10,7 @@ mod folder;
 pub mod judge;
 pub mod list;
 pub mod plan;
+pub mod report;
 mod scene_lines;
 mod threads;
 

@@ -1,8 +1,7 @@
 //! Plates at rest: every claim of patch tests, of surface effects and of grids holds for the library and is lost to a fault.
 
-use crate::progress::Silent;
 use crate::question::Profile;
-use crate::run::run;
+use crate::run::judged;
 use crate::study::Study;
 use crate::subject::{PdVerify, Subject};
 use pd_verify::forces::BodyForce;
@@ -88,7 +87,7 @@ fn soft_when_fine(scene: &mut Scene<2>) {
 
 fn verdicts(case: &str, subject: &dyn Subject) -> BTreeMap<String, Verdict> {
     let study = Study::read("mine.toml", &format!("{HEAD}{case}"), &[]).unwrap().0;
-    let judged = run(&study, Profile::Full, subject, &Silent).judged;
+    let judged = judged(&study, Profile::Full, subject);
     let name = |id: &str| id.rsplit('/').next().unwrap_or_default().to_owned();
     judged.into_iter().map(|judged| (name(&judged.claim.id), judged.verdict)).collect()
 }

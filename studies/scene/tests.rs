@@ -1,9 +1,8 @@
 //! Every effect is known by its name, and every claim of a march is lost to some fault.
 
 use super::effects::{EFFECTS, names};
-use crate::progress::Silent;
 use crate::question::Profile;
-use crate::run::run;
+use crate::run;
 use crate::study::Study;
 use crate::subject::{PdVerify, Subject};
 use pd_verify::record::{self, Diverged, Failure, Record};
@@ -132,7 +131,7 @@ fn scale(record: &mut Record, quantity: &str, factor: f64) {
 }
 
 fn verdicts(subject: &dyn Subject) -> BTreeMap<String, Verdict> {
-    let judged = run(&study(BAR), Profile::Full, subject, &Silent).judged;
+    let judged = run::judged(&study(BAR), Profile::Full, subject);
     judged.into_iter().map(|one| (one.claim.id.rsplit('/').next().unwrap().to_owned(), one.verdict)).collect()
 }
 
@@ -162,7 +161,7 @@ fn every_claim_of_a_march_is_lost_to_some_fault() {
 fn what_finite_rotations_lose_is_said_with_its_cure() {
     let turned = study(&BAR.replace("lattice =", "rotations = \"finite\"\nlattice ="));
     let drifting = Falsified(|_, record| scale(record, "kinetic", 1.5));
-    let judged = run(&turned, Profile::Full, &drifting, &Silent).judged;
+    let judged = run::judged(&turned, Profile::Full, &drifting);
     let energy = judged.iter().find(|one| one.claim.id.ends_with("energy_balance")).unwrap();
     assert_eq!(energy.verdict, Verdict::Fail);
     assert!(energy.evidence.note.contains("take a smaller Δt"), "{}", energy.evidence.note);
@@ -172,7 +171,7 @@ fn what_finite_rotations_lose_is_said_with_its_cure() {
         Failure::Diverged(Box::new(Diverged { step: 1, time: 1.0, sound_step, own_limit, sound, record }))
     };
     let said = |case: &str| {
-        let judged = run(&study(case), Profile::Full, &Growing(grown), &Silent).judged;
+        let judged = run::judged(&study(case), Profile::Full, &Growing(grown));
         judged[0].evidence.failed.clone().unwrap()
     };
     assert!(!said(BAR).contains("tension"), "{}", said(BAR));

@@ -17,6 +17,7 @@ mod patches;
 mod place;
 mod refinements;
 mod refusals;
+mod report;
 mod results;
 mod running;
 mod scenes;

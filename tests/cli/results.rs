@@ -29,7 +29,9 @@ fn files_of_a_run() {
             "mine/dispersion_velocities.csv",
             "mine/manifest.json",
             "mine/phase_error_thresholds.csv",
+            "mine/results.json",
             "mine/verdicts.csv",
+            "run.json",
             "summary.md",
             "verdicts.csv",
         ]

@@ -11,9 +11,8 @@ mod oracles;
 mod stability_faults;
 
 use crate::kind::Kind;
-use crate::progress::Silent;
 use crate::question::Profile;
-use crate::run::run;
+use crate::run::judged;
 use crate::shipped::shipped;
 use crate::study::Study;
 use crate::subject::{PdVerify, Subject};
@@ -26,8 +25,8 @@ fn verdicts<'s>(
     profile: Profile,
     subject: &dyn Subject,
 ) -> BTreeMap<String, Verdict> {
-    let judged = studies.into_iter().flat_map(|study| run(study, profile, subject, &Silent).judged);
-    let ran = judged.filter(|judged| judged.verdict != Verdict::Skipped);
+    let all = studies.into_iter().flat_map(|study| judged(study, profile, subject));
+    let ran = all.filter(|judged| judged.verdict != Verdict::Skipped);
     ran.map(|judged| (judged.claim.id, judged.verdict)).collect()
 }
 
