@@ -1,7 +1,8 @@
 //! `index.html`: the whole run as one page that needs nothing else.
 
+use super::html_parts::{ledger, matrix, misprinted, overview, stability};
 use super::row::{Row, counts, counts_line, failing};
-use super::{Drawn, RunSummary};
+use super::{Drawn, RunSummary, Shown};
 use crate::verdict::{Judged, Verdict};
 use minijinja::{Environment, Value, context};
 
@@ -10,6 +11,9 @@ pub fn index_html(run: &RunSummary) -> String {
     let mut environment = Environment::new();
     // The name's ending turns escaping on.
     environment.add_template("page.html", include_str!("page.html")).expect("the template is well-formed");
+    environment
+        .add_template("across.html", include_str!("across.html"))
+        .expect("the template is well-formed");
     let studies: Vec<Value> = run
         .studies
         .iter()
@@ -37,9 +41,29 @@ pub fn index_html(run: &RunSummary) -> String {
         counts => tiles(run.judged()),
         failed,
         studies,
+        overview => overview(run),
+        stability => stability(run),
+        ledger => ledger(run),
+        misprints => misprinted(run),
+        matrix => matrix(run),
+        tables => run.tables.iter().map(shown).collect::<Vec<Value>>(),
+        style => Value::from_safe_string(include_str!("page.css").into()),
+        script => Value::from_safe_string(include_str!("page.js").into()),
     };
     let template = environment.get_template("page.html").expect("added above");
     template.render(page).expect("the template asks only for what is given")
+}
+
+fn shown(table: &Shown) -> Value {
+    let number = |text: &String| context! { text, number => text.parse::<f64>().is_ok() };
+    let rows: Vec<Vec<Value>> = table.rows.iter().map(|row| row.iter().map(number).collect()).collect();
+    context! {
+        id => &table.id,
+        title => &table.title,
+        caption => &table.caption,
+        columns => &table.columns,
+        rows,
+    }
 }
 
 fn figure(drawn: &Drawn) -> Value {
@@ -116,8 +140,44 @@ mod tests {
     #[test]
     fn the_page_needs_nothing_else() {
         let page = index_html(&sample::run());
-        for outside in ["<script", "<link", "@import", "url(", "src=", "href=\"http"] {
+        for outside in ["<script src", "<link", "@import", "url(", "src=", "href=\"http", "fetch(", "import("]
+        {
             assert!(!page.contains(outside), "{outside}");
+        }
+    }
+
+    #[test]
+    fn all_that_is_said_stands_there_before_any_script_runs() {
+        let page = index_html(&sample::run());
+        let (text, script) = page.split_once("<script>").unwrap();
+        assert!(script.trim_end().ends_with("</html>") && !text.contains("hidden"));
+        for judged in sample::run().judged() {
+            assert!(
+                text.matches(&judged.claim.id).count() >= 2,
+                "in its study and in the matrix: {}",
+                judged.claim.id
+            );
+        }
+        for part in ["The sources, figure by figure", "0.02 m/s", "reproduced", "cheapest"] {
+            assert!(text.contains(part), "{part}");
+        }
+    }
+
+    /// Anchors that are linked to exist, once.
+    #[test]
+    fn links_resolve() {
+        let page = index_html(&sample::run());
+        let of = |mark: &str| -> Vec<String> {
+            page.split(mark)
+                .skip(1)
+                .map(|rest| rest.split('"').next().unwrap_or_default().to_owned())
+                .collect()
+        };
+        let ids = of(" id=\"");
+        let links = of("href=\"#");
+        assert!(links.len() > 10);
+        for link in links {
+            assert_eq!(ids.iter().filter(|id| **id == link).count(), 1, "{link}");
         }
     }
 

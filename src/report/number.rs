@@ -10,7 +10,7 @@ pub fn csv_number(value: f64) -> String {
 }
 
 /// Four significant digits for a reader; a dash where there is no number.
-pub(super) fn readable(value: Option<f64>) -> String {
+pub fn readable(value: Option<f64>) -> String {
     rounded(value, 4)
 }
 

@@ -1,6 +1,6 @@
 //! A run with every verdict and with text that needs escaping, for tests.
 
-use super::{Drawn, RunSummary, StudyReport, plot};
+use super::{Drawn, Outcome, RunSummary, Shown, StudyReport, Traced, plot};
 use crate::claim::{Basis, Claim, ErrorKind, Expectation, Relation};
 use crate::verdict::{Evidence, Judged, ObservedOrder, judge};
 
@@ -68,6 +68,7 @@ pub(super) fn run() -> RunSummary {
     let figure = plot::Figure::new("curves", "Curves <of> ω", "Frequency & wavenumber.", panel);
     let study = |id: &str, judged, figures| StudyReport {
         id: id.to_owned(),
+        kind: id.to_owned(),
         title: format!("The {id} study"),
         text: "Waves are slower in a lattice.\n\nBy how much is known exactly.".to_owned(),
         source: "Silling & Askari 2005".to_owned(),
@@ -82,5 +83,19 @@ pub(super) fn run() -> RunSummary {
             study("dispersion", dispersion, vec![Drawn::new(&figure).unwrap()]),
             study("bar", bar, Vec::new()),
         ],
+        ledger: vec![Traced {
+            source: "Silling & Askari 2005".into(),
+            what: "the speed is 0.02 m/s".into(),
+            outcome: Outcome::Reproduced,
+            why: "to all digits".into(),
+            claims: vec!["dispersion/constant-m3/passes".into()],
+        }],
+        tables: vec![Shown {
+            id: "cheapest".into(),
+            title: "The cheapest way".into(),
+            caption: "By bond updates.".into(),
+            columns: vec!["method".into(), "seconds".into()],
+            rows: vec![vec!["gaussian".into(), "0.5".into()]],
+        }],
     }
 }

@@ -1,9 +1,11 @@
 //! Results as data: what pages and tables are made from, in a file beside them that loses nothing.
 
 pub mod inputs;
+mod ledger;
 pub mod page;
 pub mod read;
 pub mod resume;
+mod shown;
 #[cfg(test)]
 mod tests;
 pub mod write;

@@ -1,5 +1,7 @@
 //! What speaks of a whole run, made from results alone: the page, the summary, JUnit, verdicts.
 
+use super::ledger::ledger;
+use super::shown::shown;
 use super::{CaseResults, FigureResults, Folder, RUN, Run, StudyResults};
 use crate::output::Output;
 use pd_verify::report::{
@@ -22,8 +24,9 @@ pub struct Kept {
 /// The run as pages and tables tell it.
 pub fn summary(run: &Run, kept: Vec<Kept>) -> RunSummary {
     let mut room = FIGURES;
-    let mut studies = Vec::new();
+    let (mut studies, mut tables) = (Vec::new(), Vec::new());
     for Kept { folder, place } in kept {
+        tables.extend(place.iter().flat_map(|place| shown(&folder, place)));
         for study in folder.studies {
             if run.shard.is_none() || !study.cases.is_empty() {
                 studies.push(report(study, place.as_ref(), &mut room));
@@ -31,11 +34,21 @@ pub fn summary(run: &Run, kept: Vec<Kept>) -> RunSummary {
         }
     }
     let title = format!("Verification of peridynamics{}", if run.complete { "" } else { ", interrupted" });
-    RunSummary { title, command: run.manifest.command(), manifest: run.manifest.pairs(), studies }
+    let judged: Vec<&Judged> = studies.iter().flat_map(|study: &StudyReport| &study.judged).collect();
+    // What a study of one's own shows is no figure of the sources.
+    let ledger = if run.folders.len() > 1 { ledger(&judged) } else { Vec::new() };
+    RunSummary {
+        title,
+        command: run.manifest.command(),
+        manifest: run.manifest.pairs(),
+        studies,
+        ledger,
+        tables,
+    }
 }
 
 fn report(study: StudyResults, place: Option<&PathBuf>, room: &mut usize) -> StudyReport {
-    let StudyResults { id, title, mut text, source, cases, .. } = study;
+    let StudyResults { id, kind, title, mut text, source, cases, .. } = study;
     let (mut figures, mut left_out, mut judged) = (Vec::new(), 0, Vec::new());
     for CaseResults { figures: of_case, judged: of_claims, .. } in cases {
         judged.extend(of_claims);
@@ -50,7 +63,7 @@ fn report(study: StudyResults, place: Option<&PathBuf>, room: &mut usize) -> Stu
         text +=
             &format!("\n\n{left_out} more figures are not shown here: they are files beside the verdicts.");
     }
-    StudyReport { id, title, text, source, figures, judged }
+    StudyReport { id, kind, title, text, source, figures, judged }
 }
 
 /// The figure, if the page has room for it.
