@@ -1,6 +1,8 @@
 //! Results as data: what pages and tables are made from, in a file beside them that loses nothing.
 
+pub mod baseline;
 pub mod inputs;
+pub mod merge;
 pub mod page;
 pub mod read;
 pub mod resume;

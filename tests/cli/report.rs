@@ -32,6 +32,17 @@ fn a_report_is_made_again_from_results_byte_for_byte() {
     assert!(after == all, "nothing else is touched");
 }
 
+/// `--set` finds its place in one study of two: their folders say other things, and are of one run.
+#[test]
+fn a_run_with_settings_is_made_again() {
+    let place = ran();
+    let set = ["run", "study.toml", "two.toml", "--out", "out", "--set", "case.b.curve.0.m=2"];
+    place.run(&set).code(0);
+    let before = PAGES.map(|page| place.read(page));
+    place.run(&["report", "--from", "out"]).code(0);
+    assert!(PAGES.map(|page| place.read(page)) == before);
+}
+
 #[test]
 fn folders_of_other_runs_are_named_and_left_out() {
     let place = ran();
