@@ -143,7 +143,8 @@ impl Work<'_> {
             }
         }
         self.progress.finish();
-        run.complete = !done.unfinished;
+        let written = done.kept.iter().all(|kept| kept.place.is_some());
+        run.complete = !done.unfinished && written;
         self.end(&run, done)
     }
 
@@ -234,9 +235,8 @@ impl Work<'_> {
         };
         if self.resume.is_wanted() && !self.options.quiet {
             let place = self.options.out.display();
-            tell(&self.resume.nothing().unwrap_or_else(|| {
-                format!("took over {taken} of {} cases from {place}, ran {ran}", taken + ran)
-            }));
+            self.resume.lacks().iter().for_each(|why| tell(why));
+            tell(&format!("took over {taken} of {} cases from {place}, ran {ran}", taken + ran));
         }
         problems.iter().for_each(|problem| tell(&format!("error: {problem}")));
         if unfinished {

@@ -31,7 +31,7 @@ pub fn from(dir: &Path, options: &RunOptions) -> Result<End, Refusal> {
     }
     problems.iter().for_each(|problem| tell(&format!("error: {problem}")));
     if !run.complete {
-        tell("the run was interrupted: what it had not reached is not in the report");
+        tell("the run was interrupted: what it did not reach or could not write is not in the report");
     }
     let failed = !problems.is_empty() || judged.iter().any(|one| one.evidence.failed.is_some());
     let end = ending(&judged, options.strict, run.shard.is_some(), failed);

@@ -154,6 +154,26 @@ basis = "theory"
 because = "nobody knows why it should move"
 "#;
 
+/// Printed formulas that are wrong fail as expected, in every report that is made of them.
+#[test]
+fn expected_failures_stay_expected() {
+    let place = Place::new();
+    let misprints = concat!(env!("CARGO_MANIFEST_DIR"), "/studies/dispersion/misprints.toml");
+    place.run(&["dispersion", misprints, "--out", "out"]).code(0);
+    let words = |place: &Place| -> Vec<String> {
+        rows(&place.read("out/verdicts.csv")).iter().map(|row| row["verdict"].clone()).collect()
+    };
+    let before = words(&place);
+    assert!(before.iter().any(|word| word == "xfail"), "{before:?}");
+    place.run(&["report", "--from", "out"]).code(0);
+    assert_eq!(words(&place), before);
+    let again = place.run(&["dispersion", misprints, "--out", "out", "--rerun-failed"]);
+    again.code(0).stderr(contains("ran 0"));
+    assert_eq!(words(&place), before);
+    place.run(&["baseline", "save", "main", "--from", "out"]).code(0);
+    place.run(&["compare", "main", "--from", "out"]).code(0);
+}
+
 #[test]
 fn schemas_of_results_are_printed() {
     let place = ran();

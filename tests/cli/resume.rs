@@ -125,6 +125,13 @@ fn spoilt_results_are_refused_or_found_anew() {
     assert_eq!(after.remove(&verdicts).map(|_| ()), Some(()));
     assert!(after.iter().all(|(path, bytes)| files[path] == *bytes));
     let text = place.read("reports/mine/results.json");
+    place.write(
+        "reports/mine/results.json",
+        text.replacen("\"verdict\": \"pass\"", "\"verdict\": \"fail\"", 1),
+    );
+    let again = place.run(&["run", "study.toml", "--resume"]);
+    again.code(0).stderr(contains("nothing is taken from mine").and(contains("took over 0 of 3 cases")));
+    let text = place.read("reports/mine/results.json");
     place.write("reports/mine/results.json", &text[..text.len() / 2]);
     place.refuses(&["run", "study.toml", "--resume"], &["mine/results.json is cut off", "run again"]);
     place.run(&["run", "study.toml"]).code(0);
