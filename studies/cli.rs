@@ -109,6 +109,24 @@ pub enum Command {
     Bench(BenchOptions),
     /// What accuracy costs: the shipped studies, or the files given; with --advise the cheapest settings for an error, with --error or --budget a scene of your own
     Cost(CostOptions),
+    /// Put together the parts of a run that were made with --shard
+    Merge(MergeOptions),
+    /// Keep what a run found, to hold later runs against
+    Baseline {
+        #[command(subcommand)]
+        command: BaselineCommand,
+    },
+    /// Hold a run against a baseline: what drifted, what is judged otherwise, what is gone
+    Compare {
+        /// Name of the baseline, or a path that ends in .json
+        name: String,
+        /// Folder of the run
+        #[arg(long, value_name = "DIR", default_value = "reports")]
+        from: PathBuf,
+        /// Claims that took more than so many times as long have drifted too; the baseline must have been saved with --seconds
+        #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
+        slower: Option<f64>,
+    },
     /// The JSON schema of study files, or of the results that runs leave
     Schema {
         /// Of which files
@@ -158,6 +176,38 @@ pub struct RunOptions {
     /// The same, but run again what failed, broke off or could not be judged
     #[arg(long)]
     pub rerun_failed: bool,
+}
+
+/// Options of `merge`.
+#[derive(Debug, Clone, Args)]
+pub struct MergeOptions {
+    /// Folders of all parts
+    #[arg(required = true, value_name = "DIR")]
+    pub parts: Vec<PathBuf>,
+    /// Folder of the whole
+    #[arg(long, value_name = "DIR", default_value = "reports")]
+    pub out: PathBuf,
+    /// Inconclusive counts as failing
+    #[arg(long)]
+    pub strict: bool,
+    /// Print nothing but what fails
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Clone, Subcommand)]
+pub enum BaselineCommand {
+    /// Verdicts and quantities of the run, in a small file with a line for each claim
+    Save {
+        /// Its name below baselines/ in the folder of the run, or a path that ends in .json
+        name: String,
+        /// Folder of the run
+        #[arg(long, value_name = "DIR", default_value = "reports")]
+        from: PathBuf,
+        /// With the seconds that each claim took, which differ from run to run
+        #[arg(long)]
+        seconds: bool,
+    },
 }
 
 /// Files that have a schema.

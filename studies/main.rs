@@ -44,7 +44,7 @@ mod hostile;
 mod sabotage;
 
 use clap::{CommandFactory, Parser};
-use cli::{Cli, Command, SchemaOf};
+use cli::{BaselineCommand, Cli, Command, SchemaOf};
 use commands::{explain, judge, list, plan, say};
 use input::Refusal;
 use kind::Kind;
@@ -91,6 +91,11 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
         }
         Command::Bench(options) => commands::bench::bench(&options),
         Command::Cost(options) => commands::cost::cost(&options),
+        Command::Merge(options) => commands::merge::merge(&options).map(judge::End::code),
+        Command::Baseline { command: BaselineCommand::Save { name, from, seconds } } => {
+            commands::baseline::save(&name, &from, seconds)
+        }
+        Command::Compare { name, from, slower } => commands::baseline::compare(&name, &from, slower),
         Command::Schema { of } => print(&format!("{:#}\n", schema_of(of))),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -22,6 +22,9 @@ pub struct Manifest {
     pub instruction_set_asked: Option<String>,
     pub cpu: String,
     pub threads: usize,
+    /// Processors and threads of a run whose parts ran on several; else empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub machines: Vec<String>,
     pub command_line: Vec<String>,
     pub profile: String,
     pub settings: Vec<String>,
@@ -65,6 +68,7 @@ impl Manifest {
             instruction_set_asked: isa,
             cpu: cpu_model(),
             threads: rayon::current_num_threads(),
+            machines: Vec::new(),
             command_line: std::env::args().collect(),
             profile,
             settings,
@@ -95,6 +99,10 @@ impl Manifest {
             ("profile".into(), self.profile.clone()),
             ("start".into(), self.start.clone()),
         ];
+        if !self.machines.is_empty() {
+            pairs.retain(|(name, _)| name != "processor" && name != "threads");
+            pairs.push(("machines".into(), self.machines.join("; ")));
+        }
         if !self.settings.is_empty() {
             pairs.push(("changed by --set".into(), self.settings.join(", ")));
         }

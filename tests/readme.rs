@@ -82,15 +82,28 @@ fn its_advice_is_what_comes_out() {
 #[test]
 fn its_commands_and_options_exist() {
     let text = readme();
-    for command in
-        ["dispersion", "bar", "bench", "cost", "run", "list", "explain", "plan", "schema", "completions"]
-    {
+    for command in [
+        "dispersion",
+        "bar",
+        "bench",
+        "cost",
+        "run",
+        "list",
+        "explain",
+        "plan",
+        "report",
+        "merge",
+        "compare",
+        "schema",
+        "completions",
+    ] {
         assert!(text.contains(command), "the README does not name {command}");
         program().args([command, "--help"]).assert().success();
     }
     let help = program().args(["run", "--help"]).output().unwrap();
     let help = String::from_utf8(help.stdout).unwrap();
-    for option in ["--out", "--profile", "--set", "--strict", "--threads", "--quiet", "--no-progress"] {
+    let options = ["--out", "--profile", "--set", "--strict", "--threads", "--quiet", "--no-progress"];
+    for option in options.into_iter().chain(["--shard", "--resume", "--rerun-failed"]) {
         assert!(text.contains(option) && help.contains(option), "{option}");
     }
 }

@@ -23,6 +23,7 @@ use pd_verify::report::{counts_line, terminal_table};
 use pd_verify::verdict::{Judged, Verdict};
 use std::collections::HashMap;
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 
 /// Hashes of inputs by study and case.
 type Inputs = HashMap<String, HashMap<String, String>>;
@@ -142,7 +143,8 @@ impl Work<'_> {
             }
         }
         self.progress.finish();
-        run.complete = !done.unfinished;
+        let written = done.kept.iter().all(|kept| kept.place.is_some());
+        run.complete = !done.unfinished && written;
         self.end(&run, done)
     }
 
@@ -225,7 +227,7 @@ impl Work<'_> {
             false => page::write(run, kept, self.output),
         };
         problems.extend(wrong);
-        if let Err(error) = print_table(&judged, self.options) {
+        if let Err(error) = Shown::from(self.options).print_table(&judged) {
             problems.push(format!("cannot print: {error}"));
         }
         let tell = |line: &str| {
@@ -233,21 +235,20 @@ impl Work<'_> {
         };
         if self.resume.is_wanted() && !self.options.quiet {
             let place = self.options.out.display();
-            tell(&self.resume.nothing().unwrap_or_else(|| {
-                format!("took over {taken} of {} cases from {place}, ran {ran}", taken + ran)
-            }));
+            self.resume.lacks().iter().for_each(|why| tell(why));
+            tell(&format!("took over {taken} of {} cases from {place}, ran {ran}", taken + ran));
         }
         problems.iter().for_each(|problem| tell(&format!("error: {problem}")));
         if unfinished {
             tell(&format!("interrupted: {} claims were judged, the rest was not run", judged.len()));
             return End::Interrupted;
         }
-        ending(&judged, self.options, run.shard.is_some(), failed || !problems.is_empty())
+        ending(&judged, self.options.strict, run.shard.is_some(), failed || !problems.is_empty())
     }
 }
 
 /// How a run ends that was not interrupted. A part of a run may be without a pass, or empty.
-pub fn ending(judged: &[Judged], options: &RunOptions, part: bool, failed: bool) -> End {
+pub fn ending(judged: &[Judged], strict: bool, part: bool, failed: bool) -> End {
     let verdicts: Vec<Verdict> = judged.iter().map(|judged| judged.verdict).collect();
     let passes = verdicts.contains(&Verdict::Pass);
     if !passes && !part {
@@ -256,10 +257,10 @@ pub fn ending(judged: &[Judged], options: &RunOptions, part: bool, failed: bool)
     if failed {
         return End::Computation;
     }
-    if part && !passes && !verdicts.iter().any(|&verdict| fails(verdict, options.strict)) {
+    if part && !passes && !verdicts.iter().any(|&verdict| fails(verdict, strict)) {
         return End::Pass;
     }
-    verdict_of(&verdicts, options.strict)
+    verdict_of(&verdicts, strict)
 }
 
 fn head(asked: &Asked) -> StudyResults {
@@ -288,23 +289,36 @@ fn manifest(studies: &[&Study], options: &RunOptions) -> Manifest {
     Manifest::of_this_run(options.profile.to_string(), unique, isa, studies.iter().map(hash).collect())
 }
 
-/// The table of verdicts on the terminal, or of those that fail.
-pub fn print_table(judged: &[Judged], options: &RunOptions) -> io::Result<()> {
-    let failing = |one: &&Judged| fails(one.verdict, options.strict);
-    let shown: Vec<Judged> =
-        if options.quiet { judged.iter().filter(failing).cloned().collect() } else { judged.to_vec() };
-    if shown.is_empty() {
-        return Ok(());
+/// What is shown of a run on the terminal, and where it stands.
+pub struct Shown<'a> {
+    pub out: &'a Path,
+    pub strict: bool,
+    /// Only what fails.
+    pub quiet: bool,
+}
+
+impl<'a> From<&'a RunOptions> for Shown<'a> {
+    fn from(options: &'a RunOptions) -> Self {
+        Self { out: &options.out, strict: options.strict, quiet: options.quiet }
     }
-    let terminal = io::stdout().is_terminal();
-    let colour = terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-    let width = if terminal { terminal_width() } else { 120 };
-    let place = if options.quiet {
-        String::new()
-    } else {
-        format!("see {}\n", options.out.join("index.html").display())
-    };
-    say(&(terminal_table(&shown, width, colour) + &place))
+}
+
+impl Shown<'_> {
+    /// The table of verdicts.
+    pub fn print_table(&self, judged: &[Judged]) -> io::Result<()> {
+        let failing = |one: &&Judged| fails(one.verdict, self.strict);
+        let shown: Vec<Judged> =
+            if self.quiet { judged.iter().filter(failing).cloned().collect() } else { judged.to_vec() };
+        if shown.is_empty() {
+            return Ok(());
+        }
+        let terminal = io::stdout().is_terminal();
+        let colour = terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+        let width = if terminal { terminal_width() } else { 120 };
+        let page = self.out.join("index.html");
+        let place = if self.quiet { String::new() } else { format!("see {}\n", page.display()) };
+        say(&(terminal_table(&shown, width, colour) + &place))
+    }
 }
 
 /// The width of the terminal, as its shell tells it.

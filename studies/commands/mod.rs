@@ -1,5 +1,6 @@
 //! What each command does.
 
+pub mod baseline;
 pub mod bench;
 mod compute;
 pub mod cost;
@@ -9,6 +10,7 @@ mod find;
 mod folder;
 pub mod judge;
 pub mod list;
+pub mod merge;
 pub mod plan;
 pub mod report;
 mod scene_lines;

@@ -1,11 +1,12 @@
 //! What the results of a case depend on, as one hash: the case as resolved, the program, the instruction set.
 
-use super::{hex, sha256};
+use super::hex;
 use crate::manifest::Manifest;
 use crate::study::Study;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
+use std::io::Read;
 
 /// The program and the machine's part in the results, as text. Threads have none; profiles choose cases, not results.
 pub fn code(manifest: &Manifest) -> String {
@@ -26,8 +27,16 @@ pub fn code(manifest: &Manifest) -> String {
 
 /// SHA-256 of the program's own file; without it nothing is known to be the same, so that every process differs.
 fn binary() -> String {
-    let bytes = std::env::current_exe().and_then(std::fs::read);
-    bytes.map_or_else(|_| format!("process {}", std::process::id()), |bytes| sha256(&bytes))
+    let hashed = std::env::current_exe().and_then(std::fs::File::open).and_then(|mut file| {
+        let (mut hash, mut piece) = (Sha256::new(), vec![0; 1 << 16]);
+        loop {
+            match file.read(&mut piece)? {
+                0 => return Ok(hex(&hash.finalize())),
+                count => hash.update(&piece[..count]),
+            }
+        }
+    });
+    hashed.unwrap_or_else(|_| format!("process {}", std::process::id()))
 }
 
 /// The hash of each case by its id. What stands above the cases belongs to all of them.

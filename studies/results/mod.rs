@@ -1,7 +1,9 @@
 //! Results as data: what pages and tables are made from, in a file beside them that loses nothing.
 
+pub mod baseline;
 pub mod inputs;
 mod ledger;
+pub mod merge;
 pub mod page;
 pub mod read;
 pub mod resume;
@@ -124,7 +126,7 @@ pub struct Run {
     pub program: String,
     pub manifest: Manifest,
     pub shard: Option<Shard>,
-    /// Whether all cases were run that should have been.
+    /// Whether all cases were run that should have been, and all that was found could be written.
     pub complete: bool,
     /// Names of all folders in order, those among them of which no case was run here.
     pub order: Vec<String>,

@@ -85,7 +85,6 @@ pub fn differs(a: &Manifest, b: &Manifest) -> Option<&'static str> {
         ("compiler", a.rustc == b.rustc && a.target == b.target),
         ("instruction set", a.instruction_set == b.instruction_set),
         ("profile", a.profile == b.profile),
-        ("--set", a.settings == b.settings),
     ];
     pairs.into_iter().find(|(_, same)| !same).map(|(what, _)| what)
 }

@@ -1,10 +1,11 @@
 //! What a run may take from an earlier one: cases whose inputs are the same to the last bit.
 
 use super::read::Source;
-use super::{CaseResults, RESULTS};
+use super::{CaseResults, RESULTS, RUN, Run};
 use crate::input::Refusal;
 use pd_verify::verdict::Verdict;
 use std::collections::HashMap;
+use std::fs;
 use std::path::Path;
 
 /// Which of the earlier cases are taken over.
@@ -21,18 +22,25 @@ pub enum Take {
 pub struct Resume {
     take: Take,
     folders: HashMap<String, Source>,
+    /// Folders that are not what their run wrote.
+    changed: Vec<String>,
 }
 
 impl Resume {
     /// Reads what is there; changes nothing.
     pub fn open(root: &Path, folders: &[String], take: Take) -> Result<Self, Refusal> {
-        let mut found = HashMap::new();
+        let (mut found, mut changed) = (HashMap::new(), Vec::new());
+        let run = fs::read(root.join(RUN)).ok().and_then(|bytes| serde_json::from_slice::<Run>(&bytes).ok());
         for folder in folders.iter().filter(|_| take != Take::Nothing) {
-            if let Some(source) = Source::read(&root.join(folder))? {
+            let Some(source) = Source::read(&root.join(folder))? else { continue };
+            let recorded = run.iter().flat_map(|run| &run.folders).find(|file| file.name == *folder);
+            if recorded.is_some_and(|file| file.sha256 != source.sha256) {
+                changed.push(folder.clone());
+            } else {
                 found.insert(folder.clone(), source);
             }
         }
-        Ok(Self { take, folders: found })
+        Ok(Self { take, folders: found, changed })
     }
 
     /// A case of an earlier run with the same inputs.
@@ -58,8 +66,12 @@ impl Resume {
         self.take != Take::Nothing
     }
 
-    /// Why nothing can be taken over.
-    pub fn nothing(&self) -> Option<String> {
+    /// Why something, or all, cannot be taken over.
+    pub fn lacks(&self) -> Option<String> {
+        if !self.changed.is_empty() {
+            let names = self.changed.join(", ");
+            return Some(format!("nothing is taken from {names}: {RESULTS} is not what {RUN} says"));
+        }
         let none = self.is_wanted() && self.folders.is_empty();
         none.then(|| format!("no earlier {RESULTS} is there: everything is run"))
     }

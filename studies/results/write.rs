@@ -54,6 +54,11 @@ impl<'a> Writer<'a> {
         Self { output, name: name.to_owned(), folder, partial, tables, names, failed }
     }
 
+    /// What could not be drawn before.
+    pub fn problems(&mut self, problems: &[String]) {
+        self.folder.problems.extend_from_slice(problems);
+    }
+
     /// The cases that follow belong to this study.
     pub fn study(&mut self, study: StudyResults) {
         self.folder.studies.push(study);

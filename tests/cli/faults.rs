@@ -194,7 +194,7 @@ fn begun(place: &Place, out: &str) -> Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_pd-verify"));
     command.current_dir(place.path("")).args(["run", "study.toml", "long.toml", "--out", out]);
     let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    while !place.path(out).join("mine/manifest.json").exists() {
+    while !place.path(out).join("run.json").exists() {
         assert!(child.try_wait().unwrap().is_none(), "ended before anything could happen to it");
         std::thread::sleep(Duration::from_millis(2));
     }
@@ -233,6 +233,10 @@ fn what_was_finished_survives_a_kill_and_the_next_run_clears_up() {
     assert_eq!(child.wait().unwrap().code(), None);
     assert_eq!(rows(&place.read("out/mine/verdicts.csv")).len(), 3);
     assert!(!place.path("out/long").exists());
+    // What was finished makes a report, which says that it is not all.
+    place.run(&["report", "--from", "out"]).code(1).stderr(predicates::str::contains("was interrupted"));
+    assert!(place.read("out/index.html").contains("Verification of peridynamics, interrupted"));
+    assert_eq!(rows(&place.read("out/verdicts.csv")).len(), 3);
     // As if it had been killed while it wrote.
     place.write(&format!("out/.mine.partial-{process}/half.csv"), "k,");
     place.write(&format!("out/.index.html.partial-{process}"), "<!doc");
@@ -242,18 +246,25 @@ fn what_was_finished_survives_a_kill_and_the_next_run_clears_up() {
     }
 }
 
+/// Removes a folder that somebody is writing to.
+fn remove(folder: &Path) {
+    while folder.exists() {
+        let _ = fs::remove_dir_all(folder);
+    }
+}
+
 #[test]
 fn a_folder_that_vanishes_is_made_again_and_a_file_in_its_place_is_said() {
     let place = Place::with_study(small());
     let mut child = begun(&place, "out");
-    fs::remove_dir_all(place.path("out")).unwrap();
+    remove(&place.path("out"));
     signal(&child, "-INT");
     let words = last_words(&mut child);
     assert_eq!(child.wait().unwrap().code(), Some(130), "{words}");
     assert_eq!(rows(&place.read("out/verdicts.csv")).iter().filter(|row| row["study"] == "mine").count(), 3);
 
     let mut child = begun(&place, "other");
-    fs::remove_dir_all(place.path("other")).unwrap();
+    remove(&place.path("other"));
     place.write("other", "a file");
     signal(&child, "-INT");
     let words = last_words(&mut child);

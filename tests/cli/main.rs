@@ -1,6 +1,7 @@
 //! The program as its users meet it: exit codes, messages, and the files it writes or leaves alone.
 
 mod avoidable;
+mod baseline;
 mod bench;
 mod commands;
 mod cost;
@@ -19,9 +20,11 @@ mod refinements;
 mod refusals;
 mod report;
 mod results;
+mod resume;
 mod running;
 mod scenes;
 mod settings;
+mod shards;
 mod snapshots;
 mod studies;
 mod support;

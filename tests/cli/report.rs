@@ -32,6 +32,17 @@ fn a_report_is_made_again_from_results_byte_for_byte() {
     assert!(after == all, "nothing else is touched");
 }
 
+/// `--set` finds its place in one study of two: their folders say other things, and are of one run.
+#[test]
+fn a_run_with_settings_is_made_again() {
+    let place = ran();
+    let set = ["run", "study.toml", "two.toml", "--out", "out", "--set", "case.b.curve.0.m=2"];
+    place.run(&set).code(0);
+    let before = PAGES.map(|page| place.read(page));
+    place.run(&["report", "--from", "out"]).code(0);
+    assert!(PAGES.map(|page| place.read(page)) == before);
+}
+
 #[test]
 fn folders_of_other_runs_are_named_and_left_out() {
     let place = ran();
@@ -142,6 +153,26 @@ tolerance = 1e-6
 basis = "theory"
 because = "nobody knows why it should move"
 "#;
+
+/// Printed formulas that are wrong fail as expected, in every report that is made of them.
+#[test]
+fn expected_failures_stay_expected() {
+    let place = Place::new();
+    let misprints = concat!(env!("CARGO_MANIFEST_DIR"), "/studies/dispersion/misprints.toml");
+    place.run(&["dispersion", misprints, "--out", "out"]).code(0);
+    let words = |place: &Place| -> Vec<String> {
+        rows(&place.read("out/verdicts.csv")).iter().map(|row| row["verdict"].clone()).collect()
+    };
+    let before = words(&place);
+    assert!(before.iter().any(|word| word == "xfail"), "{before:?}");
+    place.run(&["report", "--from", "out"]).code(0);
+    assert_eq!(words(&place), before);
+    let again = place.run(&["dispersion", misprints, "--out", "out", "--rerun-failed"]);
+    again.code(0).stderr(contains("ran 0"));
+    assert_eq!(words(&place), before);
+    place.run(&["baseline", "save", "main", "--from", "out"]).code(0);
+    place.run(&["compare", "main", "--from", "out"]).code(0);
+}
 
 #[test]
 fn schemas_of_results_are_printed() {
