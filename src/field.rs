@@ -76,6 +76,29 @@ impl FromIterator<f64> for Field {
     }
 }
 
+/// Whether all are finite numbers.
+pub fn all_finite(values: &[f64]) -> bool {
+    // What is infinite or no number is none times zero.
+    folded(values, |sum, value| sum + 0.0 * value).iter().sum::<f64>() == 0.0
+}
+
+/// The largest absolute value; of numbers alone, see [`all_finite`].
+pub fn largest(values: &[f64]) -> f64 {
+    folded(values, |most, value| if value.abs() > most { value.abs() } else { most })
+        .into_iter()
+        .fold(0.0, f64::max)
+}
+
+/// Folds every eighth value from 0, so that eight make a vector.
+fn folded(values: &[f64], with: impl Fn(f64, f64) -> f64) -> [f64; 8] {
+    let lines = values.chunks_exact(8);
+    let rest = lines.remainder();
+    let mut all =
+        lines.fold([0.0; 8], |all: [f64; 8], line| std::array::from_fn(|lane| with(all[lane], line[lane])));
+    all.iter_mut().zip(rest).for_each(|(all, value)| *all = with(*all, *value));
+    all
+}
+
 /// A stretch of a field, known by the places of the whole.
 #[derive(Debug, Clone, Copy)]
 pub struct Window<'a> {
@@ -129,5 +152,24 @@ impl std::ops::Index<std::ops::Range<usize>> for Window<'_> {
 
     fn index(&self, places: std::ops::Range<usize>) -> &[f64] {
         &self.values[places.start - self.start..places.end - self.start]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_bad_value_is_found_wherever_it_stands() {
+        let values: Vec<f64> = (0..21).map(|n| 1.5 - f64::from(n)).collect();
+        assert!(all_finite(&values) && all_finite(&[]));
+        assert_eq!((largest(&values), largest(&[]), largest(&[-3.0, 2.0])), (18.5, 0.0, 3.0));
+        for at in 0..values.len() {
+            for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut spoiled = values.clone();
+                spoiled[at] = bad;
+                assert!(!all_finite(&spoiled), "{bad} at {at}");
+            }
+        }
     }
 }

@@ -125,30 +125,44 @@ impl<const D: usize> Model<D> {
 
     /// Energy held by the forces that have a potential, in J.
     pub fn energy(&self, now: &Now<'_>) -> f64 {
-        let pieces: Vec<f64> = (0..self.grid.pieces())
-            .into_par_iter()
-            .map(|piece| self.forces.iter().filter_map(|force| force.energy(now, piece)).sum())
-            .collect();
+        let of = |piece| self.forces.iter().filter_map(|force| force.energy(now, piece)).sum::<f64>();
+        let pieces = self.map_pieces((0..self.grid.pieces()).collect(), of);
         self.cell_volume * pieces.iter().sum::<f64>()
     }
 
     /// What bonds held in J that are broken in `to` and not in `from`, the state a step before.
     pub(crate) fn released(&self, from: &Now<'_>, to: &Now<'_>) -> f64 {
-        let pieces: Vec<f64> = (0..self.grid.pieces())
-            .into_par_iter()
-            .map(|piece| self.forces.iter().map(|force| force.released(from, to, piece)).sum())
-            .collect();
+        let of = |piece| self.forces.iter().map(|force| force.released(from, to, piece)).sum::<f64>();
+        let pieces = self.map_pieces((0..self.grid.pieces()).collect(), of);
         self.cell_volume * pieces.iter().sum::<f64>()
     }
 
-    /// Does something with each piece of a field; with one piece no thread is woken.
+    /// Does something with each piece of a field; for a small body no thread is woken.
     pub(crate) fn each_piece(&self, field: &mut [f64], act: impl Fn(usize, &mut [f64]) + Send + Sync) {
         let (body, piece) = (&mut field[self.grid.body()], self.grid.piece());
-        if self.grid.pieces() == 1 {
-            act(0, body);
+        if self.worth_threads() < 2 {
+            body.chunks_mut(piece).enumerate().for_each(|(index, sum)| act(index, sum));
         } else {
             body.par_chunks_mut(piece).enumerate().for_each(|(index, sum)| act(index, sum));
         }
+    }
+
+    /// What pieces give, in their order.
+    pub(crate) fn map_pieces<T: Send>(
+        &self,
+        pieces: Vec<usize>,
+        of: impl Fn(usize) -> T + Send + Sync,
+    ) -> Vec<T> {
+        if self.worth_threads() < 2 {
+            pieces.into_iter().map(of).collect()
+        } else {
+            pieces.into_par_iter().map(of).collect()
+        }
+    }
+
+    /// How many threads the body is worth waking: fewer than two where it is small.
+    pub(crate) fn worth_threads(&self) -> usize {
+        self.grid.count() / WORTH_A_THREAD
     }
 
     /// Fills the ghosts of a displacement field.
@@ -156,6 +170,9 @@ impl<const D: usize> Model<D> {
         self.edges.fill(&self.grid, displacement);
     }
 }
+
+/// Nodes for which it is worth waking another thread.
+const WORTH_A_THREAD: usize = 4096;
 
 /// The bonds of a body. Nodes whose bonds all keep the lattice's weights are served by the operator asked for, the
 /// others, a band along corrected edges, by a list; those whose bonds may break by an operator of the same kind that looks

@@ -7,16 +7,18 @@
 //! Between two looks at a body several steps are made in one pass over memory (`pass`, `schedule`); no bit depends on
 //! how many, nor on the number of threads.
 
+mod kept;
 mod motion;
 mod pass;
 mod schedule;
 mod shared;
 
+pub use kept::Kept;
 pub use motion::Motion;
 
 use crate::breaking::{Broken, RunningNotches};
 use crate::constraints::Ghost;
-use crate::field::{Field, Window};
+use crate::field::{Field, Window, all_finite};
 use crate::forces::Now;
 use crate::grid::Grid;
 use crate::ledger::Ledger;
@@ -25,12 +27,10 @@ use crate::scene::{Initial, Scene};
 use pass::{Accelerate, Pass};
 use schedule::Schedule;
 use shared::Shared;
+use std::collections::BTreeMap;
 
 /// Steps of a pass, at most: with more the fields of neighbouring pieces no longer stay in a core's cache.
 const STEPS_PER_PASS: usize = 4;
-
-/// Nodes for which it is worth waking another thread.
-const WORTH_A_THREAD: usize = 4096;
 
 /// The sum of initial fields, `scale` times, as a field of the grid.
 pub(crate) fn initial<const D: usize>(grid: &Grid<D>, fields: &[Initial<D>], scale: f64) -> Field {
@@ -79,7 +79,7 @@ impl<'m, const D: usize> March<'m, D> {
     ) -> Self {
         let grid = &model.grid;
         let broken = model.breaking.as_ref().map_or_else(|| Broken::none().clone(), RunningNotches::intact);
-        let bands = rayon::current_num_threads().min(grid.count() / WORTH_A_THREAD).clamp(1, grid.pieces());
+        let bands = rayon::current_num_threads().min(model.worth_threads()).clamp(1, grid.pieces());
         let mut march = Self {
             model,
             time_step,
@@ -162,25 +162,34 @@ impl<'m, const D: usize> March<'m, D> {
     /// Forces are evaluated on the pieces of work that hold the places.
     pub fn accelerations(&self, places: &[usize]) -> Vec<[f64; D]> {
         let (model, grid) = (self.model, &self.model.grid);
-        let mut wanted = vec![false; grid.pieces()];
-        places.iter().for_each(|place| wanted[(place - grid.body().start) / grid.piece()] = true);
-        let (now, mut force) = (self.now(), grid.field());
-        model.each_piece(&mut force, |piece, sum| {
-            if wanted[piece] {
-                model.force_on(&now, piece, sum);
-            }
-        });
-        let mut acceleration = grid.field();
-        accelerate(model, 1.0, &force, &mut acceleration);
-        self.driven_accelerations(&mut acceleration);
-        let of = |place: &usize| std::array::from_fn(|axis| acceleration[place + axis * grid.stride()]);
+        let piece_of = |place: &usize| (place - grid.body().start) / grid.piece();
+        let mut wanted: Vec<usize> = places.iter().map(piece_of).collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        let now = self.now();
+        let on_piece = |&piece: &usize| {
+            let range = grid.range(piece);
+            let (mut force, mut acceleration) = (Field::zeros(range.len()), Field::zeros(range.len()));
+            model.force_on(&now, piece, &mut force);
+            accelerate_piece(model, 1.0, range.start, &force, &mut acceleration);
+            (range.start, acceleration)
+        };
+        let pieces: Vec<(usize, Field)> = model.map_pieces(wanted.clone(), |piece| on_piece(&piece));
+        let driven = self.driven_accelerations();
+        let of = |place: &usize| {
+            let (start, acceleration) = &pieces[wanted.partition_point(|piece| *piece < piece_of(place))];
+            std::array::from_fn(|axis| {
+                let place = place + axis * grid.stride();
+                driven.get(&place).copied().unwrap_or_else(|| acceleration[place - start])
+            })
+        };
         places.iter().map(of).collect()
     }
 
-    /// Puts the accelerations of driven nodes into a field of accelerations.
-    fn driven_accelerations(&self, acceleration: &mut [f64]) {
+    /// Accelerations of driven nodes, by place.
+    fn driven_accelerations(&self) -> BTreeMap<usize, f64> {
         if self.model.constraints.is_empty() {
-            return;
+            return BTreeMap::new();
         }
         let square = self.time_step * self.time_step;
         let at = |step: u64| {
@@ -192,12 +201,14 @@ impl<'m, const D: usize> March<'m, D> {
         };
         let next = at(self.step + 1);
         let second = (self.step == 0).then(|| at(2));
-        for &place in self.model.constraints.iter().flat_map(|constraint| constraint.places()) {
-            acceleration[place] = match &second {
+        let of = |&place: &usize| {
+            let acceleration = match &second {
                 Some(second) => (second[place] - 2.0 * next[place]) / square,
                 None => (next[place] - self.increment[place]) / square,
             };
-        }
+            (place, acceleration)
+        };
+        self.model.constraints.iter().flat_map(|constraint| constraint.places()).map(of).collect()
     }
 
     /// The model that moves.
@@ -315,7 +326,7 @@ impl<'m, const D: usize> March<'m, D> {
 
     /// Whether every displacement is a number.
     pub fn is_finite(&self) -> bool {
-        self.displacement.iter().all(|u| u.is_finite())
+        all_finite(&self.displacement)
     }
 }
 
@@ -339,7 +350,17 @@ fn accelerate<const D: usize>(model: &Model<D>, scale: f64, force: &[f64], incre
     let (start, piece) = (model.grid.body().start, model.grid.piece());
     model.each_piece(increment, |index, d| {
         let start = start + index * piece;
-        let force = &force[start..start + d.len()];
-        model.isa.run(Accelerate { inertia: &model.inertia, scale, start, force, increment: d });
+        accelerate_piece(model, scale, start, &force[start..start + d.len()], d);
     });
+}
+
+/// The same on a piece that starts at a place.
+fn accelerate_piece<const D: usize>(
+    model: &Model<D>,
+    scale: f64,
+    start: usize,
+    force: &[f64],
+    increment: &mut [f64],
+) {
+    model.isa.run(Accelerate { inertia: &model.inertia, scale, start, force, increment });
 }

@@ -7,10 +7,9 @@
 //! energy and grows without bound while H keeps still. With finite rotations K is the secant from u(n−1) to u(n).
 
 use super::March;
-use crate::field::{Field, Window};
+use crate::field::{Field, Window, all_finite, largest};
 use crate::forces::{Class, Now};
 use crate::model::Inertia;
-use rayon::prelude::*;
 
 /// The motion of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,13 +24,12 @@ impl<const D: usize> March<'_, D> {
     /// The motion of the step done last, for the price of its forces. No bit of the march changes.
     pub fn motion(&mut self) -> Motion {
         let model = self.model;
-        let larger = |most: f64, d: &f64| if d.abs() > most || d.is_nan() { d.abs() } else { most };
-        let size = self.increment.iter().fold(0.0, larger);
+        if !all_finite(&self.increment) {
+            return Motion { kinetic: f64::INFINITY, square: f64::NAN };
+        }
+        let size = largest(&self.increment);
         if size == 0.0 {
             return Motion { kinetic: 0.0, square: 0.0 };
-        }
-        if !size.is_finite() {
-            return Motion { kinetic: f64::INFINITY, square: f64::NAN };
         }
         // A linear body is asked for K·d itself, so that no digit is lost where it is strained and hardly moves; squares of
         // what has grown far are no numbers.
@@ -40,13 +38,20 @@ impl<const D: usize> March<'_, D> {
             model.constraints.iter().flat_map(|constraint| constraint.places()).copied().collect();
         driven.sort_unstable();
         let mut trial = std::mem::take(&mut self.other);
-        for (at, d) in self.increment.iter().enumerate() {
-            trial[at] = if model.linear { scale * d } else { self.displacement[at] - d };
-        }
+        let (start, piece) = (model.grid.body().start, model.grid.piece());
+        model.each_piece(&mut trial, |index, trial| {
+            let from = start + index * piece;
+            let (d, u) = (&self.increment[from..from + trial.len()], &self.displacement[from..]);
+            if model.linear {
+                trial.iter_mut().zip(d).for_each(|(trial, d)| *trial = scale * d);
+            } else {
+                trial.iter_mut().zip(d).zip(u).for_each(|((trial, d), u)| *trial = u - d);
+            }
+        });
         driven.iter().for_each(|&at| trial[at] = if model.linear { 0.0 } else { self.displacement[at] });
         model.fill_ghosts(&mut trial);
         let each = |piece: usize| self.of_piece(piece, &trial, scale, &driven);
-        let pieces: Vec<[f64; 2]> = (0..model.grid.pieces()).into_par_iter().map(each).collect();
+        let pieces = model.map_pieces((0..model.grid.pieces()).collect(), each);
         let [mass, pull] = pieces.iter().fold([0.0; 2], |sum, piece| [sum[0] + piece[0], sum[1] + piece[1]]);
         trial.copy_from_slice(&self.displacement);
         self.other = trial;

@@ -3,12 +3,14 @@
 mod avoidable;
 mod checks;
 mod counts;
+mod looks;
 mod running;
 mod step;
 pub mod time;
 pub mod work;
 
 pub use avoidable::Avoidable;
+pub use looks::Looks;
 pub use step::stable_time_step;
 
 use crate::constraints::Edge;
@@ -53,6 +55,8 @@ pub struct Plan {
     pub steps_per_cell: Option<f64>,
     /// What each step does.
     pub work: Work,
+    /// What is done beside the steps.
+    pub looks: Looks,
 }
 
 impl Plan {
@@ -122,12 +126,15 @@ impl Plan {
             bond_updates: (counts.ends / 2).saturating_mul(steps),
             steps_per_cell: running::steps_per_cell(scene, time_step),
             work: Work::of(scene, &stencil, &counts, terms.effects::<D>(nodes)),
+            looks: Looks::of(scene, &grid, steps),
         })
     }
 
     /// The same plan for the same scene where only the pace of its probes has changed.
     pub fn paced<const D: usize>(mut self, scene: &Scene<D>) -> Result<Self, Wrong> {
-        self.patch_bytes = checks::patches(scene, &scene.grid(0), self.steps)?;
+        let grid = scene.grid(0);
+        self.patch_bytes = checks::patches(scene, &grid, self.steps)?;
+        self.looks = Looks::of(scene, &grid, self.steps);
         Ok(self)
     }
 

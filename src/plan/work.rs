@@ -44,6 +44,8 @@ pub struct Work {
     pub loaded_places: u64,
     /// Whether the energy ledger books every step.
     pub booked: bool,
+    /// Whether what lies beyond the edges is filled anew after every step, since the body's first rows follow its last.
+    pub repeats: bool,
     pub flops_per_step: f64,
     /// u and d read and written.
     pub state_bytes_per_step: f64,
@@ -80,6 +82,7 @@ impl Work {
             damped_nodes: effects.damped_nodes,
             loaded_places: effects.loaded_places,
             booked: scene.probes.iter().any(|probe| probe.watch == Watch::Energies),
+            repeats: scene.edges.repeats_pieces(),
             flops_per_step: bonds + rates + effects.loaded_places as f64 + nodes * (UPDATE_FLOPS * D) as f64,
             state_bytes_per_step: nodes * (STATE_BYTES * D) as f64,
             kept_bytes: (counts.kept_bytes + effects.kept_bytes) as f64,

@@ -10,6 +10,7 @@ pub use diverged::Diverged;
 pub use patch::Patch;
 pub use snapshot::Snapshot;
 pub use watching::LAST_SOUND;
+pub(crate) use watching::looks_of_growth;
 
 use crate::ledger::Ledger;
 use crate::march::March;
@@ -124,7 +125,7 @@ pub fn march<const D: usize>(scene: &Scene<D>, plan: Plan, model: &Model<D>) -> 
             }
         }
         if watching.diverges(scene, &mut march, plan.steps) {
-            let diverged = watching.given_up(&march, Record { plan, traces, snapshots });
+            let diverged = watching.given_up(scene, march, Record { plan, traces, snapshots });
             return Err(Failure::Diverged(Box::new(diverged)));
         }
     }

@@ -4,10 +4,9 @@
 //! cannot carry at this Δt, whatever acts on the body. Only when it has grown far beyond what moved before is the march
 //! given up, so that a step too long does no harm where it stirs nothing.
 
-use super::{Diverged, Record, Snapshot, snapshot};
+use super::{Diverged, Record, snapshot};
 use crate::fastest::fastest_of_motion;
-use crate::field::Field;
-use crate::march::March;
+use crate::march::{Kept, March};
 use crate::scene::{Beyond, Scene, StepRule};
 
 /// The first look, the doubling of the step between looks, and the most steps between two.
@@ -23,22 +22,29 @@ const GROWN: f64 = 1e8;
 /// Name of the snapshot of the last sound look.
 pub const LAST_SOUND: &str = "last-sound";
 
+/// How many looks a march of so many steps takes, the last step among them.
+pub fn looks_of_growth(steps: u64) -> u64 {
+    let doubled = |power: &u64| *power <= steps;
+    let early = std::iter::successors(Some(FIRST), |power| Some(2 * power).filter(|power| *power < MOST));
+    let scheduled = steps.is_multiple_of(MOST) || (FIRST..MOST).contains(&steps) && steps.is_power_of_two();
+    early.filter(doubled).count() as u64 + steps / MOST + u64::from(!scheduled)
+}
+
 /// What was seen so far.
 pub(super) struct Watching {
     looks: bool,
     /// The largest kinetic energy that was sound, or that of the first look.
     most: Option<f64>,
     sound_step: Option<u64>,
-    sound: Option<Snapshot>,
-    /// Displacements of the last sound look, where the law is not linear.
-    at: Option<Field>,
+    /// The march at that step, where more of it is asked than when it was.
+    sound: Option<Kept>,
 }
 
 impl Watching {
     pub fn new<const D: usize>(scene: &Scene<D>) -> Self {
         let studied =
             matches!(scene.time.step, StepRule::Given { beyond_limit: Beyond::UntilItOverflows, .. });
-        Self { looks: !studied, most: None, sound_step: None, sound: None, at: None }
+        Self { looks: !studied, most: None, sound_step: None, sound: None }
     }
 
     /// The next step at which to look, after one.
@@ -65,8 +71,8 @@ impl Watching {
         if motion.square <= 1.0 + MARGIN {
             self.most = Some(self.most.map_or(motion.kinetic, |most| most.max(motion.kinetic)));
             self.sound_step = Some(step);
-            self.sound = (!scene.snapshots.is_empty()).then(|| snapshot::taken(scene, march, LAST_SOUND, 0));
-            self.at = (!march.model().linear).then(|| march.displacement().to_vec().into());
+            let asked = !scene.snapshots.is_empty() || !march.model().linear;
+            self.sound = asked.then(|| march.keep());
             return false;
         }
         let most = *self.most.get_or_insert(motion.kinetic);
@@ -74,15 +80,36 @@ impl Watching {
     }
 
     /// What is known of a march that diverges; `record` is what was seen of it.
-    pub fn given_up<const D: usize>(self, march: &March<'_, D>, record: Record) -> Diverged {
-        let at = self.at.as_deref().unwrap_or(march.displacement());
-        Diverged {
-            step: march.step(),
-            time: march.time(),
-            own_limit: fastest_of_motion(march, at).ok().map(|mode| mode.stable_time_step()),
-            sound_step: self.sound_step,
-            sound: self.sound,
-            record,
+    pub fn given_up<const D: usize>(
+        self,
+        scene: &Scene<D>,
+        mut march: March<'_, D>,
+        record: Record,
+    ) -> Diverged {
+        let (step, time) = (march.step(), march.time());
+        let strained = self.sound.as_ref().filter(|_| !march.model().linear).map(Kept::displacement);
+        let fastest = fastest_of_motion(&march, strained.unwrap_or(march.displacement()));
+        let own_limit = fastest.ok().map(|mode| mode.stable_time_step());
+        let sound = self.sound.filter(|_| !scene.snapshots.is_empty()).map(|kept| {
+            march.put_back(kept);
+            snapshot::taken(scene, &march, LAST_SOUND, 0)
+        });
+        Diverged { step, time, own_limit, sound_step: self.sound_step, sound, record }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn looks_are_counted_as_they_are_taken() {
+        let watching = Watching { looks: true, most: None, sound_step: None, sound: None };
+        for steps in [1, 3, 4, 5, 64, 511, 512, 513, 999, 1000, 1001, 1023, 1024, 2000, 12_345] {
+            let taken = std::iter::successors(Some(0), |&step| {
+                Some(watching.next(step).min(steps)).filter(|_| step < steps)
+            });
+            assert_eq!(looks_of_growth(steps), taken.count() as u64 - 1, "{steps}");
         }
     }
 }

@@ -77,6 +77,8 @@ impl<'a> Measured<'a> {
             damped_node_s: added(|work| work.damped_nodes > 0),
             loaded_place_s: added(|work| 2 * work.loaded_places > work.kinds.nodes()),
             booked_node_s: added(|work| work.booked),
+            // What is beside the steps is measured beside them.
+            ..BodyCosts::default()
         }
     }
 

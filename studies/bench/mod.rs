@@ -1,5 +1,6 @@
 //! `pd-verify bench`: how fast bodies are marched, beside what the machine can do.
 
+pub mod beside;
 pub mod bodies;
 pub mod cases;
 pub mod costs;

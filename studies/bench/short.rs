@@ -1,5 +1,6 @@
 //! Costs of nodes where no `bench` has left any: a few bodies, measured in seconds.
 
+use super::beside::beside;
 use super::cases::short_suite;
 use super::costs;
 use super::kept;
@@ -36,5 +37,5 @@ pub fn costs(options: &RunOptions, pools: &Pools) -> Result<Costs, Refusal> {
         let limits = Limits::unknown(threads);
         cases.extend(measured.iter().map(|one| Rates::of(group.name, isa, one, &measured[0], &limits)));
     }
-    Ok(costs::costs(&cases, threads))
+    beside(costs::costs(&cases, threads), pools).map_err(|wrong| Refusal::new(wrong.message).help(wrong.help))
 }

@@ -3,6 +3,7 @@
 use super::judge::End;
 use super::{folder, say, threads};
 use crate::attachment::Attachment;
+use crate::bench::beside::beside;
 use crate::bench::cases::{Case, Group, M, SIDE, suite};
 use crate::bench::forecast::forecasts;
 use crate::bench::growth::growths;
@@ -140,7 +141,8 @@ fn whole_suite(isa: Isa, options: &BenchOptions, output: &Output) -> Result<u8, 
     };
     let cases: Vec<Rates> = groups_measured.iter().flat_map(rates).collect();
     progress.at("predictions");
-    let costs = costs::costs(&cases, threads);
+    let costs = beside(costs::costs(&cases, threads), &pools)
+        .map_err(|wrong| Refusal::new(wrong.message).help(wrong.help))?;
     let forecasts = match forecasts(&costs, &pools, CHECK, &interrupted) {
         Ok(forecasts) => forecasts,
         Err(failure) => return ended(failure),

@@ -152,8 +152,7 @@ fn in_time(scene: &Planned) -> [String; 4] {
 
 /// Seconds that marching a scene takes; `None` where costs are unknown, and for a body at rest.
 pub fn seconds(costs: Option<&Costs>, scene: &Planned) -> Option<f64> {
-    let steps = (!is_at_rest(scene)).then_some(scene.steps as f64)?;
-    Some(steps * costs?.of_step(&scene.work)?)
+    if is_at_rest(scene) { None } else { costs?.of_march(scene) }
 }
 
 /// Whether a scene is found at rest instead of being marched.
@@ -217,6 +216,7 @@ mod tests {
             bond_updates: 12_000_000,
             steps_per_cell: None,
             work: Work::default(),
+            looks: Default::default(),
         }
     }
 

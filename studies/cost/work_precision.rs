@@ -122,9 +122,7 @@ impl WorkPrecision {
                     }
                     seconds.sort_by(f64::total_cmp);
                 }
-                let plan = run.plan();
-                let step = costs.and_then(|costs| costs.of_step(&plan.work));
-                let predicted = step.map(|step| step * plan.steps as f64);
+                let predicted = costs.and_then(|costs| costs.of_march(run.plan()));
                 levels.push(Point { solved, seconds, predicted });
             }
             points.push(levels);

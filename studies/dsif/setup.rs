@@ -94,6 +94,7 @@ impl Problem {
         let every = (plan.steps / LOOKS).max(1);
         scene.probes =
             vec![Probe { name: SEEN.into(), watch: Watch::Patch { from: box_[0], to: box_[1] }, every }];
+        let plan = plan.paced(&scene)?;
         let tip = Tip { sites, horizon, crack: plate.free_crack(horizon) };
         for (index, extraction) in extractions.iter().enumerate() {
             let prepared = extraction.prepare(&tip, &elastic);

@@ -299,3 +299,19 @@ fn ways_that_cannot_be_run() {
     let wrong = Plan::of(&Scene { running: vec![running], ..bar }).unwrap_err();
     assert_eq!(wrong.key, "notch[0].runs");
 }
+
+#[test]
+fn a_march_put_back_goes_the_same_way_again() {
+    let scene = &plates()[0];
+    let own = model(scene);
+    let mut march = March::new(&own, scene, STEP);
+    march.advance_to(30);
+    let kept = march.keep();
+    march.advance_to(80);
+    let end = march.keep();
+    assert_ne!(march.broken(), &broken(&own, 30.0 * STEP));
+    march.put_back(kept.clone());
+    assert!(march.keep() == kept && kept != end);
+    march.advance_to(80);
+    assert!(march.keep() == end);
+}

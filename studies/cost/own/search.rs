@@ -323,7 +323,7 @@ impl Search<'_> {
 
     /// Seconds by `bench`, or operations.
     fn effort(&self, plan: &Plan) -> f64 {
-        let step = self.machine.costs.and_then(|costs| costs.of_step(&plan.work));
-        plan.steps as f64 * step.unwrap_or(plan.work.flops_per_step)
+        let march = self.machine.costs.and_then(|costs| costs.of_march(plan));
+        march.unwrap_or(plan.steps as f64 * plan.work.flops_per_step)
     }
 }
