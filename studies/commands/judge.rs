@@ -49,6 +49,8 @@ impl End {
 struct Group {
     folder: String,
     studies: Vec<Study>,
+    /// Data of another code that is judged.
+    data: Option<StudyHash>,
 }
 
 /// The shipped studies of a kind, all in one folder, or the files given, each in its own.
@@ -58,7 +60,7 @@ pub fn shipped_or_files(kind: Kind, files: &[PathBuf], options: &RunOptions) -> 
         return compute(read_files(files, Some(kind), &settings)?, options);
     }
     let studies = shipped(Some(kind), &settings)?;
-    compute(vec![Group { folder: kind.word().to_owned(), studies }], options)
+    compute(vec![Group { folder: kind.word().to_owned(), studies, data: None }], options)
 }
 
 /// Any study files, each with a folder of its own.
@@ -67,14 +69,20 @@ pub fn files(files: &[PathBuf], options: &RunOptions) -> Result<End, Refusal> {
     compute(read_files(files, None, &settings)?, options)
 }
 
+/// A study whose answer was brought with a file, in a folder of its own.
+pub fn brought(folder: &str, study: Study, data: StudyHash, options: &RunOptions) -> Result<End, Refusal> {
+    compute(vec![Group { folder: folder.to_owned(), studies: vec![study], data: Some(data) }], options)
+}
+
 /// The `--set` options as settings.
 pub fn settings(written: &[String]) -> Result<Vec<Setting>, Refusal> {
     written.iter().map(|text| Setting::parse(text)).collect()
 }
 
 /// Names that shipped commands write to.
-const RESERVED: [&str; 11] = [
+const RESERVED: [&str; 12] = [
     "advice",
+    "check",
     "dispersion",
     "bar",
     "bench",
@@ -114,7 +122,7 @@ fn read_files(files: &[PathBuf], kind: Option<Kind>, settings: &[Setting]) -> Re
                 .refuse("id", format!("id \"{}\" is {reason}", study.id))
                 .help("choose another id"));
         }
-        groups.push(Group { folder: study.id.clone(), studies: vec![study] });
+        groups.push(Group { folder: study.id.clone(), studies: vec![study], data: None });
     }
     refuse_unused(settings, &used)?;
     Ok(groups)
@@ -178,7 +186,8 @@ fn compute_and_write(groups: &[Group], options: &RunOptions, costs: Option<Costs
         if ran.iter().all(|ran| ran.finished == 0) {
             continue;
         }
-        let manifest = manifest(&group.studies, options);
+        let mut manifest = manifest(&group.studies, options);
+        manifest.studies.extend(group.data.clone());
         let (files, studies) = folder_of(&group.studies, ran, &manifest, &mut problems);
         match output.replace_folder(&group.folder, &files) {
             Ok(place) => progress.note(&format!("wrote {} files to {}", files.len(), place.display())),

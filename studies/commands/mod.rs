@@ -1,15 +1,18 @@
 //! What each command does.
 
 pub mod bench;
+pub mod check;
 pub mod cost;
 pub mod cost_scene;
 pub mod explain;
+pub mod export;
 mod find;
 mod folder;
 pub mod judge;
 pub mod list;
 pub mod plan;
 mod scene_lines;
+pub mod selftest;
 mod threads;
 
 use std::io::{self, Write};
