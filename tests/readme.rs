@@ -62,6 +62,18 @@ fn its_commands_for_speed_run() {
 }
 
 #[test]
+fn its_commands_for_other_codes_run() {
+    let text = readme();
+    let (_, section) = text.split_once("## Check your own code\n").unwrap();
+    let block = section.split("```sh\n").nth(1).unwrap().split("```").next().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(block.lines().count(), 3);
+    for command in block.lines() {
+        program().current_dir(folder.path()).args(command.split_whitespace().skip(1)).assert().success();
+    }
+}
+
+#[test]
 fn its_advice_is_what_comes_out() {
     let text = readme();
     let command = text.lines().find(|line| line.starts_with("pd-verify cost --advise")).unwrap();
@@ -82,9 +94,20 @@ fn its_advice_is_what_comes_out() {
 #[test]
 fn its_commands_and_options_exist() {
     let text = readme();
-    for command in
-        ["dispersion", "bar", "bench", "cost", "run", "list", "explain", "plan", "schema", "completions"]
-    {
+    for command in [
+        "dispersion",
+        "bar",
+        "bench",
+        "cost",
+        "run",
+        "list",
+        "explain",
+        "check",
+        "selftest",
+        "plan",
+        "schema",
+        "completions",
+    ] {
         assert!(text.contains(command), "the README does not name {command}");
         program().args([command, "--help"]).assert().success();
     }

@@ -104,7 +104,9 @@ fn chosen(
     match whole[..] {
         [one] => Ok(one),
         [] => {
-            let best = (0..forms.len()).max_by_key(|&at| (each[at].0, forms.len() - at)).unwrap_or(0);
+            let alone = |at: usize| found(source, &forms[at].wanted(), &Asked::default());
+            let best =
+                (0..forms.len()).max_by_key(|&at| (each[at].0, alone(at), forms.len() - at)).unwrap_or(0);
             if forms.len() == 1 || each[best].0 > 0 || !asked.map.is_empty() || !asked.unit.is_empty() {
                 // Reading says what is missing.
                 let form = &forms[best];

@@ -38,8 +38,7 @@ const REACH: f64 = 1.0;
 impl ForeignCurve<'_> {
     /// ω/c in 1/m by the reference.
     fn known(curve: &Curve, k: f64) -> Option<f64> {
-        let wave = curve.reference(k)?;
-        Some(wave.omega / curve.unit()).filter(|omega| omega.is_finite())
+        curve.reference(k).map(|wave| wave.omega).filter(|omega| omega.is_finite())
     }
 
     /// Rows (k, ω/c, reference) where there is one, evenly thinned to so many.
@@ -60,25 +59,24 @@ impl ForeignCurve<'_> {
         let own = Self::beside(&self.curve, rows, TRIED);
         let mut all = scaled(|factor| Self::error(&own, |_, omega| factor * omega));
         let mut add = |cause: String, error| all.push(Suspect { cause, error });
-        if let Some(courant) = self.curve.own_courant() {
-            let half = 0.5 * courant * self.curve.unit();
+        if let Some(half) = self.half_step() {
             let turned = |omega: f64| libm::tan(omega * half) / half;
-            let exact = |omega: f64| libm::asin(omega * half) / half;
             add(
                 "if tan(ωΔt/2) = ΩΔt/2 were replaced by sin: was another scheme in time taken than leapfrog?"
                     .into(),
-                Self::error(&own, |_, omega| exact(turned(omega))),
+                Self::error(&own, |_, omega| self.in_time(turned(omega))),
             );
             add(
                 "with sin(ωΔt/2) = ΩΔt/2: is it the frequency in exact time, without leapfrog?".into(),
-                Self::error(&own, |_, omega| exact(omega)),
+                Self::error(&own, |_, omega| self.in_time(omega)),
             );
         }
         if self.narrow() {
             let half = 0.5 * self.curve.unit();
+            let bent = |omega: f64| libm::sin(libm::atan(omega * half)) / half;
             add(
-                "with sin in place of tan: ωΔx/c = 2 sin(kΔx/2)".into(),
-                Self::error(&own, |_, omega| libm::sin(libm::atan(omega * half)) / half),
+                "with sin in place of tan: ΩΔx/c = 2 sin(kΔx/2)".into(),
+                Self::error(&own, |_, omega| self.in_time(bent(self.in_space(omega)))),
             );
         }
         for (what, other) in self.variants().into_iter().chain(self.others.clone()) {
@@ -91,9 +89,24 @@ impl ForeignCurve<'_> {
         all
     }
 
-    /// Whether only nearest neighbours act, so that ωΔx/c = 2 sin(kΔx/2).
+    /// Whether only nearest neighbours act, so that ΩΔx/c = 2 sin(kΔx/2).
     fn narrow(&self) -> bool {
-        matches!(self.curve.medium, Medium::FiniteDifferences { .. }) && self.curve.courant.is_none()
+        matches!(self.curve.medium, Medium::FiniteDifferences { .. })
+    }
+
+    /// Δt/2 over 1/c in m; none in exact time.
+    fn half_step(&self) -> Option<f64> {
+        self.curve.own_courant().map(|courant| 0.5 * courant * self.curve.unit())
+    }
+
+    /// Ω/c of the space alone from ω/c of leapfrog.
+    fn in_space(&self, omega: f64) -> f64 {
+        self.half_step().map_or(omega, |half| libm::sin(omega * half) / half)
+    }
+
+    /// ω/c of leapfrog from Ω/c; NaN where it is unstable.
+    fn in_time(&self, omega: f64) -> f64 {
+        self.half_step().map_or(omega, |half| libm::asin(omega * half) / half)
     }
 
     /// Curves that this one is mistaken for.
@@ -299,7 +312,9 @@ impl Foreign for ForeignCurve<'_> {
         ];
         if self.narrow() {
             let half = 0.5 * self.curve.unit();
-            let columns = self.columns(|k| Some(libm::tan(k * half) / half));
+            let columns = self.columns(|k| {
+                Some(self.in_time(libm::tan(k * half) / half)).filter(|omega| omega.is_finite())
+            });
             all.push(Mistake { what: "tan in place of sin", columns, cause: "sin in place of tan" });
         }
         if let Some((_, other)) = self.variants().iter().find(|(what, _)| what.contains("one off")) {

@@ -203,7 +203,7 @@ fn check_words(wanted: &[Wanted], asked: &Asked) -> Result<(), Refusal> {
     Ok(())
 }
 
-fn asked_of<'a>(pairs: &'a [(String, String)], is: impl Fn(&str) -> bool) -> Option<&'a str> {
+fn asked_of(pairs: &[(String, String)], is: impl Fn(&str) -> bool) -> Option<&str> {
     pairs.iter().find(|(ours, _)| is(ours)).map(|(_, theirs)| theirs.as_str())
 }
 

@@ -8,6 +8,8 @@ mod npy;
 mod refinement;
 mod source;
 mod suspects;
+#[cfg(test)]
+mod tests;
 mod text;
 mod unit;
 mod view;

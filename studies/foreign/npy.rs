@@ -163,7 +163,7 @@ fn fields(descr: &str) -> Option<Vec<(Option<String>, Kind)>> {
     };
     let (list, _) = list.split_once(']')?;
     let words: Vec<&str> = list.split('\'').skip(1).step_by(2).collect();
-    if words.is_empty() || words.len() % 2 != 0 || words.len() > 2 * MAX_COLUMNS {
+    if words.is_empty() || !words.len().is_multiple_of(2) || words.len() > 2 * MAX_COLUMNS {
         return None;
     }
     words.chunks_exact(2).map(|pair| Some((Some(pair[0].to_owned()), Kind::of(pair[1])?))).collect()

@@ -2,6 +2,7 @@
 
 mod avoidable;
 mod bench;
+mod check;
 mod commands;
 mod cost;
 mod cost_scene;
