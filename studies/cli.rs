@@ -1,5 +1,6 @@
 //! The command line: commands and options as users type them.
 
+use crate::foreign::Delimiter;
 use crate::question::Profile;
 use crate::shard::Shard;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -87,7 +88,14 @@ pub enum Command {
         /// The study file itself, to copy; of a case: a study of this case alone
         #[arg(long, conflicts_with = "bibtex")]
         toml: bool,
+        /// Of a case: write the problem for the user of any solver, templates and references into a folder
+        #[arg(long, value_name = "DIR", conflicts_with_all = ["bibtex", "toml"])]
+        export: Option<PathBuf>,
     },
+    /// Judge results that another code produced, by the reference and the bounds of a case
+    Check(CheckOptions),
+    /// Results that are known to be wrong must be rejected, each with its cause, and right ones accepted
+    Selftest,
     /// What a study will do and what it costs; runs nothing
     Plan {
         /// Id of a shipped study or of one of its cases (study/case), or a study file
@@ -220,6 +228,30 @@ pub enum SchemaOf {
     Results,
     /// run.json, beside these folders
     Run,
+}
+
+/// Options of `check`.
+#[derive(Debug, Clone, Args)]
+pub struct CheckOptions {
+    /// Id of a shipped case (study/case), or a study file of one case
+    pub case: String,
+    /// CSV (any usual delimiter, with or without header) or NPY
+    #[arg(long, value_name = "FILE")]
+    pub data: PathBuf,
+    /// Name of a column in the file, or its number: --map t=time
+    #[arg(long, value_name = "COLUMN=THEIRS")]
+    pub map: Vec<String>,
+    /// Unit of a column, if it is not SI: --unit 'k=MPa*sqrt(mm)'
+    #[arg(long, value_name = "COLUMN=UNIT")]
+    pub unit: Vec<String>,
+    /// What parts the columns; found out if not given
+    #[arg(long, value_enum)]
+    pub delimiter: Option<Delimiter>,
+    /// Which of the kinds of data that the case judges, where the columns do not tell
+    #[arg(long = "as", value_name = "KIND")]
+    pub form: Option<String>,
+    #[command(flatten)]
+    pub run: RunOptions,
 }
 
 /// Options of `bench`.

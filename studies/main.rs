@@ -15,6 +15,7 @@ mod convergence;
 mod cost;
 mod dispersion;
 mod dsif;
+mod foreign;
 mod input;
 mod kind;
 mod levels;
@@ -85,7 +86,13 @@ fn command(cli: Cli) -> Result<u8, Refusal> {
         Command::Report { from: None, options } => judge::all(&options).map(judge::End::code),
         Command::Run { files, options } => judge::files(&files, &options).map(judge::End::code),
         Command::List { json } => print(&list::list(json)?),
-        Command::Explain { id, bibtex, toml } => print(&explain::explain(&id, bibtex, toml)?),
+        Command::Explain { id, export: Some(folder), .. } => print(&commands::export::export(&id, &folder)?),
+        Command::Explain { id, bibtex, toml, .. } => print(&explain::explain(&id, bibtex, toml)?),
+        Command::Check(options) => commands::check::check(&options).map(judge::End::code),
+        Command::Selftest => {
+            let (text, right) = commands::selftest::selftest()?;
+            print(&text).map(|code| if right { code } else { code.max(1) })
+        }
         Command::Plan { study, json, profile, set, out } => {
             print(&plan::plan(&study, json, profile, &set, &out)?)
         }

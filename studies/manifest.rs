@@ -43,7 +43,12 @@ pub struct StudyHash {
 
 impl StudyHash {
     pub fn new(id: &str, file: &str, text: &str) -> Self {
-        let sha256 = Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+        Self::of_bytes(id, file, text.as_bytes())
+    }
+
+    /// Of any file that a result rests on.
+    pub fn of_bytes(id: &str, file: &str, bytes: &[u8]) -> Self {
+        let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         Self { id: id.to_owned(), file: file.to_owned(), sha256 }
     }
 }

@@ -1,6 +1,7 @@
 //! What every study is made of: cases that ask a question, claim an answer beforehand, and bring evidence.
 
 use crate::attachment::Attachment;
+use crate::foreign::Foreign;
 use crate::subject::Subject;
 use pd_verify::claim::{Basis, Claim, ErrorKind, Expectation, Relation};
 use pd_verify::report::plot::Figure;
@@ -129,6 +130,10 @@ pub trait Question: Send + Sync {
     fn equations(&self) -> &'static str;
     /// Asks `subject`, holds its answers against the reference.
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer;
+    /// The kinds of results of another code that the case judges; none if left out.
+    fn foreign(&self) -> Vec<Box<dyn Foreign + '_>> {
+        Vec::new()
+    }
 }
 
 impl Question for Box<dyn Question> {
@@ -146,6 +151,9 @@ impl Question for Box<dyn Question> {
     }
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {
         (**self).answer(subject, place)
+    }
+    fn foreign(&self) -> Vec<Box<dyn Foreign + '_>> {
+        (**self).foreign()
     }
 }
 

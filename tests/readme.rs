@@ -62,6 +62,18 @@ fn its_commands_for_speed_run() {
 }
 
 #[test]
+fn its_commands_for_other_codes_run() {
+    let text = readme();
+    let (_, section) = text.split_once("## Check your own code\n").unwrap();
+    let block = section.split("```sh\n").nth(1).unwrap().split("```").next().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(block.lines().count(), 3);
+    for command in block.lines() {
+        program().current_dir(folder.path()).args(command.split_whitespace().skip(1)).assert().success();
+    }
+}
+
+#[test]
 fn its_advice_is_what_comes_out() {
     let text = readme();
     let command = text.lines().find(|line| line.starts_with("pd-verify cost --advise")).unwrap();
@@ -90,10 +102,12 @@ fn its_commands_and_options_exist() {
         "run",
         "list",
         "explain",
-        "plan",
         "report",
         "merge",
         "compare",
+        "check",
+        "selftest",
+        "plan",
         "schema",
         "completions",
     ] {

@@ -1,6 +1,7 @@
 //! `pd-verify bar`: a bar marched in time and at rest, held against exact answers of the local bar, of its lattice, and
 //! of the nonlocal continuum.
 
+mod foreign;
 pub mod jump;
 pub mod jump_convergence;
 pub mod names;

@@ -1,11 +1,13 @@
 //! `asks = "pulse"`: a smooth pulse between a fixed and a free end, refined at a fixed m, against d'Alembert's solution;
 //! and its time step refined, against the exact motion of the lattice.
 
+use super::foreign::{Along, ForeignBar, Quantity};
 use super::names::names;
 use super::pulse_report;
-use super::pulsed::{Marched, PlainBarAsked, PulseShapeAsked, Pulsed, material};
+use super::pulsed::{HEIGHT, Marched, PlainBarAsked, PulseShapeAsked, Pulsed, material};
 use crate::dispersion::curve::reference_lattice;
 use crate::dispersion::sweep::LatticeSweep;
+use crate::foreign::{self, Foreign};
 use crate::levels::{self, Errors, Sequence, furthest, refining, relative};
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of};
 use crate::subject::Subject;
@@ -194,6 +196,35 @@ impl Question for Pulse {
         "ρü = E u'', u(0) = 0, u'(L) = 0, u(x, 0) = f(x) = exp(−((x − x₀)/w)²): u = ½[f(x − vt) + f(x + vt)], f odd about 0, even about L
 lattice: (ωΔx/v)² = Σ w_r (2 − 2 cos rkΔx) = c²k²Δx² (1 − 2β(kΔx)² …), c² = Σ w_r r² = 1 where calibrated: error ~ (kδ)² vt k/m²
 not calibrated: error of a wave of speed cv; leapfrog: ω' = (2/Δt) asin(ωΔt/2) = ω(1 + (ωΔt)²/24 …)"
+    }
+
+    fn foreign(&self) -> Vec<Box<dyn Foreign + '_>> {
+        let exact = self.bar.exact;
+        let spacings = self
+            .refinements
+            .first()
+            .map(|one| one.by_spacing.iter().map(|level| level.scene.spacing).collect());
+        let profile = ForeignBar {
+            title: &self.title,
+            quantity: Quantity::Displacement,
+            along: Along::Place { t: self.duration, length: exact.length },
+            exact: Box::new(move |x, t| HEIGHT * exact.displacement_at(x, t)),
+            bound: None,
+            problem: self.bar.problem(),
+            source: "d'Alembert's solution by the method of images",
+        };
+        let convergence = foreign::Refinement {
+            title: self.title.clone(),
+            what: format!("the error of the displacement at t = {} s in L2 over all nodes, over the exact displacement in L2", self.duration),
+            problem: self.bar.problem(),
+            order: 2.0,
+            within: 0.1,
+            because: "long waves have the right speed, and the dispersion of every centred scheme begins with (kΔx)², at a fixed δ/Δx and vΔt/Δx; 0.1 leaves room for the next power at the coarsest level".into(),
+            source: "d'Alembert's solution by the method of images".into(),
+            floor: FLOOR,
+            spacings: spacings.unwrap_or_default(),
+        };
+        vec![Box::new(profile), Box::new(convergence)]
     }
 
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {

@@ -1,6 +1,7 @@
 //! A smooth pulse of displacement let go in a bar: as a scene, and what a march of it shows at a few times.
 
 use super::released::{LINE, cells, whole_bar};
+use crate::rounded::rounded;
 use crate::subject::Subject;
 use crate::written::Written;
 use pd_verify::constraints::{Edge, Edges};
@@ -47,7 +48,7 @@ pub struct Marched {
 }
 
 /// Height of the pulse in m; the bar is linear, so that it is of no account.
-const HEIGHT: f64 = 1e-6;
+pub const HEIGHT: f64 = 1e-6;
 
 /// What of the pulse may reach beyond an end of the bar at t = 0.
 const TAIL: f64 = 1e-15;
@@ -58,6 +59,37 @@ pub fn material(written: &Written<'_>) -> Result<Material, Wrong> {
 }
 
 impl Pulsed {
+    /// The problem in words, neutral of any solver.
+    pub fn problem(&self) -> Vec<(&'static str, String)> {
+        let PulseBar { length, speed, sharpness, centre } = self.exact;
+        let width = 1.0 / sharpness.sqrt();
+        vec![
+            (
+                "Geometry",
+                format!(
+                    "A bar from x = 0 to x = {length} m with a section of {} m²: held at x = 0, free at x = {length} m.",
+                    self.section
+                ),
+            ),
+            (
+                "Material",
+                format!(
+                    "Linear elastic, E = {} Pa, ρ = {} kg/m³: waves run at √(E/ρ) = {} m/s. A plate or a body may stand for the bar if its waves along x run at this speed.",
+                    self.material.youngs_modulus,
+                    self.material.density,
+                    rounded(speed)
+                ),
+            ),
+            (
+                "Load",
+                format!(
+                    "At t = 0 the displacement is {HEIGHT} m · exp(−((x − {centre} m)/({} m))²), at rest; nothing acts afterwards.",
+                    rounded(width)
+                ),
+            ),
+        ]
+    }
+
     pub fn check(
         bar: PlainBarAsked,
         pulse: PulseShapeAsked,

@@ -1,11 +1,13 @@
 //! `asks = "release"`: a stretched bar is let go; strain and displacement at a place against the exact square wave, its
 //! Fourier series, and the exact motion of the lattice itself.
 
+use super::foreign::{Along, ForeignBar, Quantity};
 use super::jump::{self, AWAY, JumpErrors};
 use super::names::names;
 use super::release_report;
 use super::released::{BarAsked, LINE, POINT, Released, STRAIN, marching, planned, probes};
 use crate::dispersion::sweep::LatticeSweep;
+use crate::foreign::Foreign;
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of, value_of};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
@@ -47,6 +49,7 @@ pub struct Release {
     pub title: String,
     pub bar: Released,
     pub place: f64,
+    duration: f64,
     pub terms: usize,
     pub scenes: Vec<(Scene<1>, Plan)>,
     pub labels: Vec<String>,
@@ -89,7 +92,8 @@ impl Asked for ReleaseAsked {
             .l1_at_most
             .map(|bound| (bound.0, self.because.clone().unwrap_or_else(|| "asked for by the study".into())));
         let (labels, terms) = (names(&lattices), self.fourier_terms as usize);
-        Ok(Release { title: written.title.to_owned(), bar, place, terms, scenes, labels, bound })
+        let duration = self.duration_s.0;
+        Ok(Release { title: written.title.to_owned(), bar, place, duration, terms, scenes, labels, bound })
     }
 }
 
@@ -135,6 +139,36 @@ impl Question for Release {
 Fourier: ε = F₀/(EA) Σ (−1)ⁿ 4/(π(2n+1)) cos((2n+1)πx/2L) cos((2n+1)πvt/2L)
 lattice, u odd about the fixed end and even about the free one: modes sin((2n+1)πx/2L), leapfrog (2/Δt) asin(ωΔt/2)
 error: (1/T) ∫ |ε − ε_exact| dt / (F₀/EA)"
+    }
+
+    fn foreign(&self) -> Vec<Box<dyn Foreign + '_>> {
+        let until = self.duration;
+        let exact = self.bar.exact;
+        let history = |quantity, exact: Box<dyn Fn(f64, f64) -> f64>| -> Box<dyn Foreign + '_> {
+            Box::new(ForeignBar {
+                title: &self.title,
+                quantity,
+                along: Along::Time { x: self.place, until },
+                exact,
+                bound: self.bound.clone(),
+                problem: self.bar.problem(),
+                source: "d'Alembert's solution: a square wave of strain, a triangle of displacement",
+            })
+        };
+        let profile = ForeignBar {
+            title: &self.title,
+            quantity: Quantity::Displacement,
+            along: Along::Place { t: until, length: exact.length },
+            exact: Box::new(move |x, t| exact.displacement_at(x, t)),
+            bound: None,
+            problem: self.bar.problem(),
+            source: "d'Alembert's solution",
+        };
+        vec![
+            history(Quantity::Strain, Box::new(move |x, t| exact.strain_at(x, t))),
+            history(Quantity::Displacement, Box::new(move |x, t| exact.displacement_at(x, t))),
+            Box::new(profile),
+        ]
     }
 
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {

@@ -1,6 +1,7 @@
 //! The bar of the study: held at the left, stretched by a force at the right, let go; as a scene, and as exact answers.
 
 use crate::dispersion::curve::reference_lattice;
+use crate::rounded::rounded;
 use crate::scene;
 use pd_verify::constraints::{Edge, Edges};
 use pd_verify::lattice::Lattice;
@@ -63,6 +64,37 @@ impl BarAsked {
 }
 
 impl Released {
+    /// The problem in words, neutral of any solver.
+    pub fn problem(&self) -> Vec<(&'static str, String)> {
+        let ReleasedBar { length, speed, strain } = self.exact;
+        vec![
+            (
+                "Geometry",
+                format!(
+                    "A bar from x = 0 to x = {length} m with a section of {} m²: held at x = 0, free at x = {length} m.",
+                    self.section
+                ),
+            ),
+            (
+                "Material",
+                format!(
+                    "Linear elastic, E = {} Pa, ρ = {} kg/m³: waves run at √(E/ρ) = {} m/s. A plate or a body may stand for the bar if its waves along x run at this speed.",
+                    self.material.youngs_modulus,
+                    self.material.density,
+                    rounded(speed)
+                ),
+            ),
+            (
+                "Load",
+                format!(
+                    "Stretched to the strain {} everywhere, u = {} x, at rest, and let go at t = 0; nothing acts afterwards.",
+                    rounded(strain),
+                    rounded(strain)
+                ),
+            ),
+        ]
+    }
+
     /// The scene: odd mirror at the fixed end, even mirror at the free one, released from u = ε₀x.
     pub fn scene(
         &self,

@@ -72,8 +72,13 @@ pub fn compute(groups: &[Group], options: &RunOptions) -> Result<End, Refusal> {
     let output = Output::open(&options.out, &folders)?;
     let pool = threads::pool(options.threads)?;
     let code = inputs::code(&manifest(&[], options));
-    let hashed = |study: &Study| (study.id.clone(), inputs::of_cases(study, &code));
-    let inputs: Inputs = groups.iter().flat_map(Group::studies).map(hashed).collect();
+    let hashed = |group: &Group| -> Inputs {
+        // What another code brought is an input too.
+        let brought = group.data.as_ref().map_or("", |data| &data.sha256);
+        let code = format!("{code}{brought}");
+        group.studies().map(|study| (study.id.clone(), inputs::of_cases(study, &code))).collect()
+    };
+    let inputs: Inputs = groups.iter().flat_map(hashed).collect();
     let costs = costs(groups, options, &resume, &inputs)?;
     let timed = costs.map(Timed);
     let subject: &dyn Subject = timed.as_ref().map_or(&PdVerify, |timed| timed);
@@ -126,7 +131,11 @@ impl Work<'_> {
         let mut run = Run {
             format: FORMAT,
             program: "pd-verify".into(),
-            manifest: manifest(&asked, self.options),
+            manifest: {
+                let mut manifest = manifest(&asked, self.options);
+                manifest.studies.extend(self.groups.iter().filter_map(|group| group.data.clone()));
+                manifest
+            },
             shard: self.options.shard,
             complete: false,
             order: self.groups.iter().map(|group| group.folder.clone()).collect(),
@@ -151,7 +160,8 @@ impl Work<'_> {
     /// Runs a group into its folder.
     fn group(&self, group: &Group, done: &mut Done) {
         let studies: Vec<&Study> = group.studies().collect();
-        let manifest = manifest(&studies, self.options);
+        let mut manifest = manifest(&studies, self.options);
+        manifest.studies.extend(group.data.clone());
         let mut writer = Writer::new(self.output, &group.folder, manifest, self.options.shard);
         for asked in &group.asked {
             writer.study(head(asked));

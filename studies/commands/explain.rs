@@ -2,6 +2,7 @@
 
 use super::find::{file, shipped_text, text_of};
 use crate::bibliography;
+use crate::foreign::Foreign;
 use crate::input::{Refusal, nearest};
 use crate::rounded::rounded;
 use crate::shipped::shipped;
@@ -97,11 +98,29 @@ fn about_case(text: &mut String, case: &Case, claims: &[Claim]) {
     for line in case.question.equations().lines() {
         let _ = writeln!(text, "    {line}");
     }
+    let forms = case.question.foreign();
+    if !forms.is_empty() {
+        let id = format!("{}/{}", case.place.study, case.place.case);
+        let _ = writeln!(
+            text,
+            "\n  Results of other codes\n    pd-verify explain {id} --export DIR    the problem for any solver\n    pd-verify check {id} --data FILE       judges {}",
+            listed(&forms)
+        );
+    }
     let _ = writeln!(text, "\n  Claims");
     for claim in claims {
         about_claim(text, claim);
     }
     text.push('\n');
+}
+
+/// Kinds of data, at most a few.
+fn listed(forms: &[Box<dyn Foreign + '_>]) -> String {
+    let mut names: Vec<String> = forms.iter().take(4).map(|form| form.name()).collect();
+    if forms.len() > names.len() {
+        names.push(format!("{} more", forms.len() - names.len()));
+    }
+    names.join("; ")
 }
 
 fn about_claim(text: &mut String, claim: &Claim) {

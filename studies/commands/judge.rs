@@ -4,6 +4,7 @@ use super::compute::compute;
 use crate::cli::RunOptions;
 use crate::input::{MAX_BYTES, Refusal, Setting};
 use crate::kind::Kind;
+use crate::manifest::StudyHash;
 use crate::shard::Shard;
 use crate::shipped::{commands, refuse_unused, shipped};
 use crate::study::Study;
@@ -37,6 +38,8 @@ impl End {
 pub struct Group {
     pub folder: String,
     pub asked: Vec<Asked>,
+    /// Data of another code that is judged.
+    pub data: Option<StudyHash>,
 }
 
 /// A study of which the part at hand is run, and what is said of the whole.
@@ -50,7 +53,7 @@ pub struct Asked {
 impl Group {
     fn new(folder: &str, studies: Vec<Study>, options: &RunOptions) -> Self {
         let asked = studies.into_iter().map(|study| Asked::new(study, options.shard)).collect();
-        Self { folder: folder.to_owned(), asked }
+        Self { folder: folder.to_owned(), asked, data: None }
     }
 
     pub fn studies(&self) -> impl Iterator<Item = &Study> {
@@ -100,15 +103,22 @@ pub fn files(files: &[PathBuf], options: &RunOptions) -> Result<End, Refusal> {
     compute(&read_files(files, None, &settings, options)?, options)
 }
 
+/// A study whose answer was brought with a file, in a folder of its own.
+pub fn brought(folder: &str, study: Study, data: StudyHash, options: &RunOptions) -> Result<End, Refusal> {
+    let group = Group::new(folder, vec![study], options);
+    compute(&[Group { data: Some(data), ..group }], options)
+}
+
 /// The `--set` options as settings.
 pub fn settings(written: &[String]) -> Result<Vec<Setting>, Refusal> {
     written.iter().map(|text| Setting::parse(text)).collect()
 }
 
 /// Names that shipped commands write to.
-const RESERVED: [&str; 12] = [
+const RESERVED: [&str; 13] = [
     "advice",
     "baselines",
+    "check",
     "dispersion",
     "bar",
     "bench",

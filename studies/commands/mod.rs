@@ -2,10 +2,12 @@
 
 pub mod baseline;
 pub mod bench;
+pub mod check;
 mod compute;
 pub mod cost;
 pub mod cost_scene;
 pub mod explain;
+pub mod export;
 mod find;
 mod folder;
 pub mod judge;
@@ -14,6 +16,7 @@ pub mod merge;
 pub mod plan;
 pub mod report;
 mod scene_lines;
+pub mod selftest;
 mod threads;
 
 use std::io::{self, Write};

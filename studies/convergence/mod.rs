@@ -1,5 +1,6 @@
 //! How errors fall: refinements in δ, in m and in both, of waves, pulses and bodies at rest, with the order of each.
 
+mod foreign;
 mod framed;
 pub mod frequency;
 mod frequency_report;

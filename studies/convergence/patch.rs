@@ -1,6 +1,7 @@
 //! `asks = "patch"`: fields that a lattice keeps exactly, found at rest in a held frame: uniform strain by every lattice,
 //! bending in the plane by those with the intended moduli. Others feel a force that no refinement takes away.
 
+use super::foreign::ForeignField;
 use super::framed::{Field, Framed, STRAIN};
 use super::patch_report as report;
 use super::path::{Level, PathAsked, Refine, Sequence, WeightsAsked};
@@ -10,6 +11,7 @@ use crate::bar::names;
 use crate::bar::pulsed::material;
 use crate::dispersion::curve::reference_lattice;
 use crate::dispersion::words::BodyName;
+use crate::foreign::Foreign;
 use crate::levels::{self, Errors, relative};
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of};
 use crate::subject::Subject;
@@ -212,7 +214,77 @@ impl Patch {
     }
 }
 
+impl Patch {
+    fn foreign_field(&self, index: usize, framed: &Framed) -> Option<ForeignField<'_>> {
+        let scene = framed.scenes.get(index)?;
+        let (fields, held) = (scene.displacement.clone(), 0.5 * (scene.size()[0] - self.side));
+        let exact = move |at: [f64; 2]| {
+            let mut u = [0.0; 2];
+            fields.iter().for_each(|field| u[field.component] += field.at(at.map(|x| x + held)));
+            u
+        };
+        let (name, what) = match (self.field, index) {
+            (Field::Bending, _) => ("bending", "u_x = −κXY, u_y = ½κ(X² + Y²/3), κ = 10⁻⁶/side"),
+            (Field::Strain, 0) => ("strain-along-x", "u_x = 10⁻⁶ X, u_y = 0"),
+            (Field::Strain, 1) => ("strain-along-y", "u_x = 0, u_y = 10⁻⁶ Y"),
+            (Field::Strain, _) => ("shear", "u_x = 10⁻⁶ Y, u_y = 10⁻⁶ X"),
+        };
+        let bound = match self.field {
+            Field::Strain => (
+                1e-6,
+                Basis::Engineering,
+                "every lattice keeps uniform strain exactly: what is left is where the solver stops, and how many digits were written",
+            ),
+            Field::Bending => (
+                1e-3,
+                Basis::Engineering,
+                "lattices with the intended moduli keep bending exactly, and elements of the second order too; others are off by percents, which no refinement takes away",
+            ),
+        };
+        let material = scene.material;
+        let problem = vec![
+            (
+                "Geometry",
+                format!(
+                    "A square of {} m a side, its lower left corner at (0, 0), without load; all around it a frame, as wide as a family reaches (in local elasticity its edges alone), is held at the displacement below. X and Y are counted from the middle of the square.",
+                    self.side
+                ),
+            ),
+            (
+                "Material",
+                format!(
+                    "Linear elastic, E = {} Pa, ν' = C₁₂/C₁₁ = 1/3 of the body as it is computed.",
+                    material.youngs_modulus
+                ),
+            ),
+            ("Displacement", format!("{what}, in m: what the frame is held at, and the answer inside.")),
+        ];
+        Some(ForeignField {
+            title: &self.title,
+            name,
+            side: self.side,
+            exact: Box::new(exact),
+            bound,
+            problem,
+            source: if self.field == Field::Strain {
+                "uniform strain is without force"
+            } else {
+                "bending in the plane, in closed form"
+            },
+            wrong: Vec::new(),
+        })
+    }
+}
+
 impl Question for Patch {
+    fn foreign(&self) -> Vec<Box<dyn Foreign + '_>> {
+        let Some(framed) = self.tracks.first().and_then(|track| track.levels.first()) else {
+            return Vec::new();
+        };
+        let fields = (0..framed.scenes.len()).filter_map(|index| self.foreign_field(index, framed));
+        fields.map(|field| Box::new(field) as Box<dyn Foreign + '_>).collect()
+    }
+
     fn claims(&self, place: &Place) -> Vec<Claim> {
         let what = match self.field {
             Field::Strain => "three uniform strains",

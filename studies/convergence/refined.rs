@@ -6,6 +6,7 @@ use super::refined_report as report;
 use super::space::{In, Space};
 use super::theory::{self, Expected};
 use crate::bar::names;
+use crate::foreign::{Foreign, Refinement};
 use crate::levels::{self, Errors, NORMS, furthest, tail_order};
 use crate::question::{Answer, Claiming, Effort, Place, Planned, Question, claim, error_of};
 use crate::subject::Subject;
@@ -74,6 +75,14 @@ pub trait Problem<const D: usize>: Send + Sync {
     fn solve(&self, subject: &dyn Subject, level: &Self::Level, medium: &Medium) -> Result<Solved, String>;
     /// Errors of the exact answer in one medium against that in another, at the nodes of a level.
     fn between(&self, level: &Self::Level, wrong: &Medium, right: &Medium) -> Option<Errors>;
+    /// The problem in words, neutral of any solver; none where other codes' errors are not judged.
+    fn problem(&self) -> Option<Vec<(&'static str, String)>> {
+        None
+    }
+    /// Fields of other codes that can be judged.
+    fn fields(&self) -> Vec<Box<dyn Foreign + '_>> {
+        Vec::new()
+    }
 }
 
 /// A problem along one refinement.
@@ -261,6 +270,29 @@ where
 
     fn equations(&self) -> &'static str {
         self.problem.equations()
+    }
+
+    fn foreign(&self) -> Vec<Box<dyn Foreign + '_>> {
+        let mut all = self.problem.fields();
+        let converging = self.tracks.iter().find(|track| track.converges());
+        if let Some((problem, track)) = self.problem.problem().zip(converging) {
+            let Order { expected, because } = self.problem.order();
+            all.push(Box::new(Refinement {
+                title: self.title.clone(),
+                what: format!(
+                    "the error in L2 of {} over that of the exact one, at a fixed δ/Δx",
+                    self.problem.what()
+                ),
+                problem,
+                order: expected,
+                within: WITHIN,
+                because: because.to_owned(),
+                source: self.problem.source().to_owned(),
+                floor: self.floor(),
+                spacings: track.sequence.levels.iter().map(|level| level.spacing).collect(),
+            }));
+        }
+        all
     }
 
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {

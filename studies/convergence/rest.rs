@@ -1,14 +1,17 @@
 //! `asks = "manufactured"`: a chosen displacement and the body force that holds it at rest, found without time, refined.
 //! The body is a bar or a square between mirrors, or held at the chosen displacement in a frame as wide as its families.
 
+use super::foreign::{Exact, ForeignField};
 use super::path::{Level, PathAsked, Sequence, WeightsAsked};
 use super::refined::{Bound, Problem, Refined, Solved};
 use super::space::{In, Space};
 use super::whole;
 use crate::bar::pulsed::material;
 use crate::dispersion::words::BodyName;
+use crate::foreign::Foreign;
 use crate::levels::{Errors, relative};
 use crate::question::{Effort, Planned, Question};
+use crate::rounded::rounded;
 use crate::scene::size::cells;
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
@@ -151,6 +154,64 @@ where
         Some(fields)
     }
 
+    /// The displacement that is aimed at, in m, at a place.
+    fn aimed(&self, at: [f64; D]) -> [f64; D] {
+        let mut u = [0.0; D];
+        for field in self.fields(|_, a| Some(a)).unwrap_or_default() {
+            u[field.component] += HEIGHT * field.at(at);
+        }
+        u
+    }
+
+    /// The problem in words, neutral of any solver.
+    fn words(&self) -> Vec<(&'static str, String)> {
+        let Material { youngs_modulus, density } = self.material;
+        let (c11, c66) = (
+            youngs_modulus * self.body.stiffness_over_youngs_modulus(),
+            youngs_modulus * self.body.stiffness_over_youngs_modulus() / 3.0,
+        );
+        let waves: Vec<String> = self
+            .waves
+            .iter()
+            .map(|(k, a)| format!("k = {k:?} 1/m, a = {:?} m", a.map(|a| HEIGHT * a)))
+            .collect();
+        let edges = match self.around {
+            Around::Mirrors => {
+                "At every edge the displacement is continued oddly: 0 on it, and beyond it that of the mirrored place with the opposite sign, so that the body has no surface"
+            }
+            Around::HeldFrame => {
+                "A frame within, as wide as a family reaches, is held at the exact displacement; what is inside it is free"
+            }
+        };
+        vec![
+            (
+                "Geometry",
+                format!(
+                    "{} of {} m{}. {edges}.",
+                    if D == 1 { "A bar" } else { "A square" },
+                    self.side,
+                    if D == 1 { "" } else { " a side, its lower left corner at (0, 0)" }
+                ),
+            ),
+            (
+                "Material",
+                format!(
+                    "Linear elastic, E = {youngs_modulus} Pa, ρ = {density} kg/m³ (at rest it plays no part); C₁₁ = {} Pa, and in a plate C₁₂ = C₆₆ = {} Pa.",
+                    rounded(c11),
+                    rounded(c66)
+                ),
+            ),
+            (
+                "Displacement and load",
+                format!(
+                    "The displacement is the sum of u = a cos(k·x + {}) over the waves {}. The body force that holds it, in N/m³, is C₁₁ k² u in a bar and C₁₁ (k·u) k + C₆₆ (k² u − (k·u) k) in a plate, of each wave: compute it for your load and find the body at rest.",
+                    rounded(self.phase),
+                    waves.join("; ")
+                ),
+            ),
+        ]
+    }
+
     /// The scene with the body force that holds the chosen displacement in a medium.
     fn loaded(&self, level: &Rested<D>, medium: &Medium) -> Option<Scene<D>> {
         let modulus = level.scene.modulus();
@@ -275,6 +336,41 @@ on the lattice between mirrors: u = M_lattice⁻¹ M a cos(k·x + φ)"
             self.displacements(level, |k, a| In::response(wrong, k, In::stiffness(right, k, a)?))?;
         let exact = self.displacements(level, |_, a| Some(a))?;
         Some(relative(pairs(&answered, &exact)))
+    }
+
+    fn problem(&self) -> Option<Vec<(&'static str, String)>> {
+        Some(self.words())
+    }
+
+    fn fields(&self) -> Vec<Box<dyn Foreign + '_>> {
+        if D != 2 {
+            return Vec::new();
+        }
+        let field = |factor: f64| -> Exact<'_> {
+            Box::new(move |at| {
+                let u = self.aimed(std::array::from_fn(|axis| at[axis.min(1)]));
+                [factor * u[0], factor * u[D - 1]]
+            })
+        };
+        vec![Box::new(ForeignField {
+            title: "A plate at rest",
+            name: "displacement",
+            side: self.side,
+            exact: field(1.0),
+            bound: (
+                0.02,
+                Basis::Engineering,
+                "twenty cells to the shortest wave of the field leave less in every scheme of the second order; a wrong load, modulus or plane state leaves more",
+            ),
+            problem: self.words(),
+            source: self.source(),
+            // The field is one of shear: its stiffness E/(2(1 + ν)) has ν = 1/3 in plane stress, 1/4 in plane strain.
+            wrong: vec![(
+                "the answer with the Poisson ratio of the other plane state, 1/4 for 1/3 or 1/3 for 1/4",
+                field(if self.body == Body::PlaneStress { 0.9375 } else { 1.0 / 0.9375 }),
+                "Poisson ratio",
+            )],
+        })]
     }
 
     fn has_own(&self) -> bool {

@@ -3,17 +3,20 @@
 use super::curve::{Curve, Medium};
 use super::curve_report;
 use super::curve_sweep::CurveSweep;
+use super::foreign::ForeignCurve;
 use super::label::labels;
 use super::sweep::family_size;
 use super::trace::{JUDGED, LeftOut, SEARCH, Traced, trace};
 use super::wavenumbers::Wavenumbers;
 use super::words::BodyName;
+use crate::foreign::Foreign;
 use crate::question::{Answer, Claiming, Effort, Place, Question, claim, error_of};
 use crate::subject::Subject;
 use crate::written::{Asked, Written};
 use pd_verify::claim::{Basis, Claim, ErrorKind};
 use pd_verify::compare::largest;
 use pd_verify::dispersion::continuum::panels;
+use pd_verify::material::Material;
 use pd_verify::scene::Wrong;
 use pd_verify::verdict::Evidence;
 use rayon::prelude::*;
@@ -37,6 +40,7 @@ pub struct Curves {
     /// What distinguishes each curve from the others.
     pub labels: Vec<String>,
     wavenumbers: Wavenumbers,
+    material: Option<Material>,
 }
 
 /// Rows that a case may write.
@@ -69,7 +73,13 @@ impl Asked for CurvesAsked {
             self.wavenumbers.check_for(curve).map_err(|wrong| wrong.inside("wavenumbers"))?;
         }
         let labels = labels(&curves);
-        Ok(Curves { title: written.title.to_owned(), curves, labels, wavenumbers: self.wavenumbers.clone() })
+        Ok(Curves {
+            title: written.title.to_owned(),
+            curves,
+            labels,
+            wavenumbers: self.wavenumbers.clone(),
+            material: written.material,
+        })
     }
 }
 
@@ -139,6 +149,25 @@ bar, lattice: (ωΔx/v)² = Σ_{j>0} w_j 4 sin²(jkΔx/2), w_j = W(j/m) β_j/(m�
 plane, continuum: (ωδ/c_d)² = (8/3M₂) ∫₀¹ W (1 − 2J₀ + 2J₁/x) ds; (ωδ/c_s)² = (8/M₂) ∫₀¹ W (1 − 2J₁/x) ds, x = kδs
 plane, lattice: eigenvalues of Σ w n⊗n 4 sin²(k·ξ/2), w = 8 W β/(3π m³ M₂ |ξ|/Δx)
 leapfrog: sin(ωΔt/2) = ΩΔt/2, Ω the frequency in exact time"
+    }
+
+    fn foreign(&self) -> Vec<Box<dyn Foreign + '_>> {
+        let name = |index: usize| match self.labels[index].as_str() {
+            "" => format!("curve {}", index + 1),
+            label => label.to_owned(),
+        };
+        let all = self.curves.iter().enumerate().map(|(index, curve)| -> Box<dyn Foreign + '_> {
+            let others = self.curves.iter().enumerate().filter(|(other, _)| *other != index);
+            Box::new(ForeignCurve {
+                title: &self.title,
+                name: name(index),
+                curve: *curve,
+                others: others.map(|(other, curve)| (name(other), *curve)).collect(),
+                material: self.material,
+                largest: self.wavenumbers.largest(curve),
+            })
+        });
+        all.collect()
     }
 
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {

@@ -8,6 +8,7 @@ pub mod curve;
 mod curve_report;
 mod curve_sweep;
 pub mod curves;
+mod foreign;
 pub mod heat_map;
 mod label;
 pub mod lattice_oracles;

@@ -280,6 +280,18 @@ impl Expect {
         self.asked.quantity == QuantityName::Ratio
     }
 
+    /// The bound of an error at the finest level against the case's own reference, and why: what is also asked of other
+    /// codes.
+    pub fn bound_of(&self, quantity: QuantityName) -> Option<(f64, Basis, &str)> {
+        let own = self.asked.quantity == quantity && self.asked.dx_m.is_none() && self.asked.broken.is_none();
+        match self.bound {
+            Bound::AtMost(most) if own && !self.published() => {
+                Some((most, self.asked.basis, &self.asked.because))
+            }
+            _ => None,
+        }
+    }
+
     fn published(&self) -> bool {
         self.asked.against_published == Some(true)
     }

@@ -3,6 +3,7 @@
 
 use super::expect::{Expect, ExpectAsked};
 use super::extraction::{Extraction, ExtractionAsked};
+use super::foreign::ForeignHistory;
 use super::intensity_report as report;
 use super::known::{Known, KnownAsked, Window, WindowAsked, holds_until};
 use super::load::{Load, LoadAsked, On};
@@ -13,6 +14,7 @@ use super::tips::Tips;
 use crate::bar::names;
 use crate::convergence::path::{Weights, WeightsAsked};
 use crate::dispersion::sweep::check_count;
+use crate::foreign::Foreign;
 use crate::input::OneOrMany;
 use crate::question::{Answer, Effort, Place, Planned, Question};
 use crate::subject::Subject;
@@ -71,6 +73,8 @@ pub struct Track {
 /// The question.
 pub struct Intensity {
     pub title: String,
+    pub material: Material,
+    pub plate: PlateAsked,
     pub load: Load,
     pub known: Known,
     pub window: Window,
@@ -178,6 +182,8 @@ impl IntensityAsked {
         )?;
         Ok(Intensity {
             title: written.title.to_owned(),
+            material,
+            plate: self.plate.clone(),
             load,
             known,
             window,
@@ -352,6 +358,10 @@ impl Question for Intensity {
         "K_I(t) = 2 sigma0/(1 - nu) sqrt(c_d t (1 - 2 nu)/pi), K_II(t) = 2 tau0 sqrt(2 c_s t/(pi (1 - nu))) after a step, nu the plane-strain ratio\n\
          K(t) = int (d sigma/ds) k(t - s) ds, k the response to a unit step\n\
          every reading is a sum of weights: K = sum w.u + sum w.a, over its value in the static field of a tip with K = 1"
+    }
+
+    fn foreign(&self) -> Vec<Box<dyn Foreign + '_>> {
+        vec![Box::new(ForeignHistory::of(self))]
     }
 
     fn answer(&self, subject: &dyn Subject, place: &Place) -> Answer {

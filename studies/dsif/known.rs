@@ -65,6 +65,8 @@ pub struct Known {
     history: History,
     /// Published comparison, where it differs.
     published: Option<Freund>,
+    /// The same formula with the other plane state, which it is mistaken for; none beside finite elements.
+    confused: Option<Freund>,
     /// When the first wave reaches the crack, in s.
     pub arrival: f64,
     /// When its first part does, as a smooth rise begins before t = 0.
@@ -126,6 +128,11 @@ impl KnownAsked {
         };
         let own = freund(plane);
         let arrival = own.arrival;
+        let confused = match (self.answer.plate(), body, body.poisson_ratio()) {
+            (None, Body::PlaneStress, Some(nu)) => Some(freund(Plane::plane_strain(e, nu, rho))),
+            (None, Body::PlaneStrain, Some(nu)) => Some(freund(Plane::plane_stress(e, nu, rho))),
+            _ => None,
+        };
         let history = match self.answer.plate() {
             None => History::Freund(own),
             Some(_) if published.is_some() => {
@@ -134,7 +141,7 @@ impl KnownAsked {
             }
             Some(known) => History::FiniteElements(computed(known, &plane, plate, load)?, load.stress),
         };
-        Ok(Known { arrival, begins: arrival - load.before(), history, published })
+        Ok(Known { arrival, begins: arrival - load.before(), history, published, confused })
     }
 }
 
@@ -244,6 +251,11 @@ impl Known {
     /// The published comparison.
     pub fn published_at(&self, t: f64) -> Option<f64> {
         self.published.as_ref().map(|freund| freund.at(t)).filter(|k| k.is_finite())
+    }
+
+    /// What the formula with the other plane state would say.
+    pub fn confused_at(&self, t: f64) -> Option<f64> {
+        self.confused.as_ref().map(|freund| freund.at(t)).filter(|k| k.is_finite())
     }
 
     /// K in Pa√m at t of a crack that runs at a speed in m/s at that moment; `None` where it is not known.

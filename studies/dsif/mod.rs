@@ -4,6 +4,7 @@ pub mod budget;
 pub mod errors;
 mod expect;
 pub mod extraction;
+mod foreign;
 pub mod intensity;
 mod intensity_report;
 pub mod known;

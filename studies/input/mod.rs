@@ -14,4 +14,4 @@ pub use document::{Document, MAX_BYTES};
 pub use fields::{OneOrMany, one_or_many};
 pub use refusal::{Refusal, nearest};
 pub use set::Setting;
-pub use units::other_units;
+pub use units::{other_units, to_si_factor};

@@ -60,6 +60,13 @@ pub fn to_si(key: &str) -> (String, Conversion) {
     }
 }
 
+/// The SI form of a name, and what its numbers are multiplied by and divided by: one of the two is 1.
+pub fn to_si_factor(name: &str) -> (String, (f64, f64)) {
+    let (si, Conversion { power }) = to_si(name);
+    let ten = 10_f64.powi(power.abs());
+    (si, if power < 0 { (1.0, ten) } else { (ten, 1.0) })
+}
+
 /// The other ways in which a key may be written: `dx_mm`, `dx_um`, … for `dx_m`.
 pub fn other_units(key: &str) -> Vec<String> {
     let forms =

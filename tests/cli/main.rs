@@ -3,6 +3,7 @@
 mod avoidable;
 mod baseline;
 mod bench;
+mod check;
 mod commands;
 mod cost;
 mod cost_scene;

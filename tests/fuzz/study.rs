@@ -21,6 +21,8 @@ mod dispersion;
 #[path = "../../studies/dsif/mod.rs"]
 mod dsif;
 mod exercise;
+#[path = "../../studies/foreign/mod.rs"]
+mod foreign;
 #[path = "../../studies/input/mod.rs"]
 mod input;
 #[path = "../../studies/kind.rs"]
