@@ -13,17 +13,17 @@ fn program() -> Command {
 }
 
 #[test]
-fn the_picture_is_what_the_program_draws() {
+fn the_pictures_are_what_the_program_draws() {
     let folder = tempfile::tempdir().unwrap();
-    let run = ["dispersion", "--quiet", "--profile", "quick", "--out"];
-    program().args(run).arg(folder.path()).assert().success();
-    let drawn = fs::read_to_string(folder.path().join("dispersion/polar.svg")).unwrap();
-    let shown = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/pictures/polar.svg");
-    assert!(readme().contains("(studies/pictures/polar.svg)"));
-    assert!(
-        fs::read_to_string(shown).unwrap() == drawn,
-        "copy dispersion/polar.svg of a run to studies/pictures/"
-    );
+    for (kind, drawn, shown) in [("dispersion", "polar", "polar"), ("bar", "release-source", "release")] {
+        let run = [kind, "--quiet", "--profile", "quick", "--out"];
+        program().args(run).arg(folder.path()).assert().success();
+        let drawn = fs::read_to_string(folder.path().join(kind).join(drawn).with_extension("svg")).unwrap();
+        let shown = format!("studies/pictures/{shown}.svg");
+        assert!(readme().contains(&format!("({shown})")));
+        let kept = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(&shown)).unwrap();
+        assert!(kept == drawn, "copy the figure of a run to {shown}");
+    }
 }
 
 #[test]
