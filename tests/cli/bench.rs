@@ -152,6 +152,7 @@ fn left() -> Value {
     let bar = json!({
         "step_s": 1e-3, "whole_by_pairs": [[3.0, 1e-5]], "by_nodes": [[1000.0, 1.0]], "finite_pair_s": 0.0,
         "masked_end_s": 0.0, "listed_end_s": 0.0, "damped_node_s": 0.0, "loaded_place_s": 0.0, "booked_node_s": 0.0,
+        "begin": [], "growth": [], "stop": [], "snapshot": [], "repeat": [], "patch_node_s": 0.0, "value_s": 0.0,
     });
     json!({ "isa": "avx2", "threads": 4, "cpu": "a machine", "costs": { "bar": bar, "plate": bar } })
 }
@@ -169,8 +170,9 @@ fn plan_predicts_from_what_bench_left() {
     place.write("measured/bench/bench.json", left().to_string());
     let predicted = plan(&["--out", "measured"]);
     let (seconds, steps) = (&scene(&predicted)["predicted_seconds"], scene(&predicted)["steps"].as_f64());
-    // 1 ms and 100 nodes of 10 µs.
-    let expected = 2e-3 * steps.unwrap();
+    let growth = scene(&predicted)["looks"]["growth"].as_f64().unwrap();
+    // 1 ms and 100 nodes of 10 µs for every step, for the first forces, and for those of every look for growth.
+    let expected = 2e-3 * (steps.unwrap() + 1.0 + growth);
     assert!((seconds.as_f64().unwrap() / expected - 1.0).abs() < 1e-12, "{seconds}, {expected}");
     let scenes = predicted["cases"][0]["scenes"].as_array().unwrap();
     let sum: f64 = scenes.iter().map(|scene| scene["predicted_seconds"].as_f64().unwrap()).sum();

@@ -123,6 +123,7 @@ fn leave_costs(place: &Place, out: &str, threads: u32) {
     let body = serde_json::json!({
         "step_s": 1e-7, "whole_by_pairs": [[3.0, 1e-9]], "by_nodes": [[1e3, 1.0]], "finite_pair_s": 1e-9,
         "masked_end_s": 1e-9, "listed_end_s": 1e-9, "damped_node_s": 1e-9, "loaded_place_s": 1e-9, "booked_node_s": 1e-9,
+        "begin": [], "growth": [], "stop": [], "snapshot": [], "repeat": [], "patch_node_s": 0.0, "value_s": 0.0,
     });
     let costs = serde_json::json!({ "bar": body, "plate": body });
     let kept = serde_json::json!({ "isa": "baseline", "threads": threads, "cpu": "any", "costs": costs });

@@ -74,12 +74,15 @@ fn results_replace_those_of_an_earlier_run() {
 #[test]
 fn stale_folders_are_kept_but_not_counted() {
     let place = Place::with_study(small());
-    place.write("other.toml", small().replace("\"mine\"", "\"other\""));
+    place.write("other.toml", small().replace("\"mine\"", "\"elsewhere\""));
     place.run(&["run", "other.toml"]).code(0);
     place.run(&["run", "study.toml"]).code(0);
-    assert!(place.path("reports/other/verdicts.csv").is_file());
+    assert!(place.path("reports/elsewhere/verdicts.csv").is_file());
     for file in ["index.html", "summary.md", "junit.xml", "verdicts.csv"] {
-        assert!(!place.read(&format!("reports/{file}")).contains("other"), "{file} counts a stale folder");
+        assert!(
+            !place.read(&format!("reports/{file}")).contains("elsewhere"),
+            "{file} counts a stale folder"
+        );
     }
 }
 
