@@ -168,7 +168,7 @@ fn nothing_is_left_unfinished_or_switched_off() {
 
 /// Files of the tree whose endings are in use; an editor's left-over has another.
 fn belongs(path: &Path) -> bool {
-    const ENDINGS: [&str; 9] = ["rs", "toml", "svg", "html", "css", "js", "csv", "md", "py"];
+    const ENDINGS: [&str; 10] = ["rs", "toml", "svg", "html", "css", "js", "csv", "md", "py", "txt"];
     const NAMES: [&str; 3] = [".gitignore", "Cargo.lock", "requirements.txt"];
     let ending = path.extension().is_some_and(|found| ENDINGS.iter().any(|ending| found == *ending));
     ending || path.file_name().is_some_and(|found| NAMES.iter().any(|name| found == *name))
